@@ -1,0 +1,44 @@
+# topple_chapter(NAME [IN FOLDER] [USES chapter...] [PRIVATE_LIBRARIES target...])
+# One folder of src/ is one library; a chapter sees only the chapters it names.
+find_package(PkgConfig REQUIRED)
+
+add_library(topple_options INTERFACE)
+# Same bits on every machine: no fused multiply-add behind our back, no reassociation.
+target_compile_options(topple_options INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
+if(TOPPLE_WERROR)
+  target_compile_options(topple_options INTERFACE -Werror)
+endif()
+
+set(TOPPLE_CHAPTERS "" CACHE INTERNAL "")
+
+function(topple_chapter name)
+  cmake_parse_arguments(CHAPTER "" "IN" "USES;PRIVATE_LIBRARIES" ${ARGN})
+  set(folder ${PROJECT_SOURCE_DIR}/src/${CHAPTER_IN}/${name})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*.cpp)
+  add_library(topple_${name} STATIC ${sources})
+  add_library(topple::${name} ALIAS topple_${name})
+  set_target_properties(topple_${name} PROPERTIES EXPORT_NAME ${name})
+  target_compile_features(topple_${name} PUBLIC cxx_std_23)
+  target_include_directories(topple_${name}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(topple_${name} PRIVATE $<BUILD_INTERFACE:topple_options>)
+  foreach(used ${CHAPTER_USES})
+    target_link_libraries(topple_${name} PUBLIC topple_${used})
+  endforeach()
+  foreach(library ${CHAPTER_PRIVATE_LIBRARIES})
+    if(library STREQUAL "tomlplusplus")
+      target_compile_definitions(topple_${name} PRIVATE TOML_EXCEPTIONS=0)
+    elseif(library STREQUAL "hdf5")
+      find_package(HDF5 REQUIRED COMPONENTS C)
+      target_include_directories(topple_${name} SYSTEM PRIVATE ${HDF5_C_INCLUDE_DIRS})
+      target_link_libraries(topple_${name} PRIVATE $<BUILD_INTERFACE:${HDF5_C_LIBRARIES}>)
+      set(TOPPLE_HDF5 ${HDF5_C_LIBRARIES} CACHE INTERNAL "")
+    endif()
+  endforeach()
+  if(NOT name STREQUAL "export")
+    # The core throws nothing, so that the same source serves the page.
+    target_compile_options(topple_${name} PRIVATE -fno-exceptions)
+  endif()
+  set(TOPPLE_CHAPTERS ${TOPPLE_CHAPTERS} topple_${name} CACHE INTERNAL "")
+endfunction()

@@ -1,0 +1,48 @@
+/// Files: the only chapter that knows paths. Layouts and recordings in, recordings, tables, HDF5 and plots out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "topple/measure.h"
+#include "topple/recording.h"
+
+namespace topple {
+
+/// Reads a layout file; a missing file, a directory or bad UTF-8 is an error in words.
+Result<Layout> load_layout(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+
+/// Reads a `.topple` file.
+Result<Recording> load_recording(const std::filesystem::path& path);
+
+/// Writes a recording while it grows, under `path`.part until finish() renames it.
+class RecordingFile {
+ public:
+  static Result<RecordingFile> create(const Recording& recording, const std::filesystem::path& path);
+  ~RecordingFile();
+  RecordingFile(RecordingFile&&) noexcept;
+  RecordingFile& operator=(RecordingFile&&) noexcept;
+  Result<void> append();  ///< What was finished since the last call.
+  Result<void> finish();
+
+ private:
+  RecordingFile();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+Result<void> save_recording(const Recording& recording, const std::filesystem::path& path);
+Result<void> export_knots_csv(const Recording& recording, const std::filesystem::path& path);
+Result<void> export_events_csv(const Recording& recording, const std::filesystem::path& path);
+Result<void> export_hdf5(const Recording& recording, const std::filesystem::path& path);
+
+enum class Figure : std::uint8_t { motion, arrival, speed, energy };
+struct PlotConfig {
+  Figure figure = Figure::motion;
+  std::vector<BrickId> bricks;  ///< Of a motion figure; empty: the first few that moved.
+};
+/// Draws with gnuplot; the format follows the path's extension: .svg, .png or .pdf.
+Result<void> plot(const Recording& recording, const PlotConfig& config, const std::filesystem::path& path);
+
+}  // namespace topple

@@ -1,0 +1,130 @@
+/// A model: the one interface of all physics. Built from a Layout that it never changes; owns all that moves.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "topple/layout.h"
+
+namespace topple {
+
+enum class Phase : std::uint8_t { standing, falling, resting };
+
+/// A brick that turns about its toe or heel: one angle.
+struct HingedState {
+  double angle = 0.0;         ///< Tilt; > 0 about the toe, < 0 about the heel [rad].
+  double rate = 0.0;          ///< [rad/s]
+  double acceleration = 0.0;  ///< [rad/s^2]
+};
+struct HingedMotion {
+  BrickId brick = kNoBrick;
+  Phase phase = Phase::standing;
+  HingedState state;
+};
+/// A brick that moves freely.
+struct FreeMotion {
+  BrickId brick = kNoBrick;
+  Phase phase = Phase::standing;
+  Pose pose;
+  Vec3 velocity;          ///< Of the centre of mass [m/s].
+  Vec3 angular_velocity;  ///< In world axes [rad/s].
+};
+/// A moment inside the last step at which the rate or the acceleration of a hinged brick jumped (a hit, a landing, a push).
+struct Kink {
+  BrickId brick = kNoBrick;
+  double time = 0.0;  ///< [s]
+  HingedState before, after;
+};
+
+struct Energy {
+  double kinetic = 0.0;    ///< [J]
+  double potential = 0.0;  ///< Against all bricks as put down [J].
+  double push_work = 0.0;  ///< Put in by pushes so far [J].
+};
+
+/// Every brick that moved in the last step. A model fills `hinged` or `free`; the buffers are reused from step to step.
+struct Frame {
+  double time = 0.0;  ///< [s]
+  std::vector<HingedMotion> hinged;
+  std::vector<FreeMotion> free;
+  std::vector<Kink> kinks;  ///< In the order of their times for each brick.
+  Energy energy;
+};
+
+enum class EventKind : std::uint8_t {
+  pushed,   ///< A push began.
+  struck,   ///< `brick` was hit by `by` while it stood (or rested).
+  arrived,  ///< Its tilt passed 10 degrees for the first time: the wave is here.
+  landed,   ///< Its fall was stopped by the floor (`by` = none) or by brick `by`, on which it leans from then on.
+  missed,   ///< It fell flat without reaching the next brick of its part.
+  rested    ///< It came to rest.
+};
+inline constexpr double kArrivalTilt = 0.17453292519943295;  ///< 10 degrees [rad].
+
+/// Something that happened inside the last step, at its time.
+struct Event {
+  double time = 0.0;  ///< [s]
+  EventKind kind = EventKind::pushed;
+  BrickId brick = kNoBrick;
+  BrickId by = kNoBrick;
+  double force = 0.0;    ///< [N]; not a number where the model has none.
+  double impulse = 0.0;  ///< [N s]; not a number where the model has none.
+  Vec3 point;            ///< Where, in the world [m]; not a number where there is none.
+};
+
+struct Contact {
+  BrickId a = kNoBrick;
+  BrickId b = kNoBrick;  ///< kNoBrick: the floor.
+  Vec3 point;            ///< [m]
+  Vec3 normal;           ///< From b to a.
+  double impulse = 0.0;  ///< [N s]
+};
+
+enum class Progress : std::uint8_t { running, at_rest, not_finite };
+struct Status {
+  Progress progress = Progress::running;
+  BrickId brick = kNoBrick;  ///< The brick whose numbers are not finite.
+};
+
+class Model {
+ public:
+  virtual ~Model() = default;
+  virtual Status step() = 0;                              ///< Advances by exactly one time step.
+  virtual std::int64_t step_count() const = 0;            ///< Time is step_count x time_step.
+  virtual double time_step() const = 0;                   ///< [s]
+  virtual void read(Frame& out) const = 0;                ///< What moved in the last step, and the energy.
+  virtual std::span<const Event> events() const = 0;      ///< Of the last step, in the order of their times.
+  virtual std::span<const Contact> contacts() const = 0;  ///< Of the last step.
+  virtual std::uint64_t hash() const = 0;                 ///< Chained over all steps: ids, poses, velocities.
+};
+
+// ---- Level 1: the report's model ----
+
+enum class Integrator : std::uint8_t { euler, semi_implicit, rk4 };
+enum class InertiaRule : std::uint8_t {
+  report,  ///< m (H^2 + T^2) / 12, as the report prints it (2.4): about the centre of mass.
+  pivot    ///< m (H^2 + T^2) / 3: about the toe, which is what turns.
+};
+enum class HitRule : std::uint8_t {
+  momentum,  ///< (1 + e) / 2 of the hitter's angular velocity goes over.
+  report,    ///< (2.5): a force for `pulse` seconds.
+  same       ///< The push of the first brick again, as in the report's animation.
+};
+
+struct PivotConfig {
+  // affects results
+  double time_step = 0.0005;  ///< [s]
+  Integrator integrator = Integrator::euler;
+  InertiaRule inertia = InertiaRule::report;
+  HitRule hit = HitRule::momentum;
+  double pulse = 0.010;  ///< How long the force of a `report` hit acts [s].
+};
+
+/// Choosing the config chooses the model.
+using ModelConfig = std::variant<PivotConfig>;
+
+}  // namespace topple

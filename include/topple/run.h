@@ -1,0 +1,57 @@
+/// Running: from a layout and a model to a recording. The only loop, and the only place that knows every model.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "topple/recording.h"
+
+namespace topple {
+
+/// Understands the [model] settings of a layout; every unknown key or bad value is named at once.
+Result<ModelConfig> model_config(const Layout& layout);
+
+/// The one visit. May refuse a layout, in words. The layout must outlive the model.
+Result<std::unique_ptr<Model>> make_model(const Layout& layout, const ModelConfig& config);
+
+/// "pivot".
+std::string model_name(const ModelConfig& config);
+
+/// How far a run has come.
+struct RunProgress {
+  std::int64_t bricks = 0;
+  std::int64_t arrived = 0;  ///< Bricks that the wave has reached.
+  std::int64_t step = 0;
+  double time = 0.0;  ///< Simulated [s].
+};
+
+struct RunConfig {
+  // affects results
+  double until = std::numeric_limits<double>::infinity();  ///< Stops at this simulated time [s].
+  RecorderConfig recorder;
+
+  // affects speed only
+  int threads = 1;
+
+  /// Called every few thousand steps with the recording so far; returning false stops the run cleanly.
+  std::function<bool(const RunProgress&, const Recording&)> watch;
+};
+
+/// Runs a layout to its end and records it. The recording owns the layout.
+Result<Recording> simulate(Layout layout, const ModelConfig& model, const RunConfig& config = {});
+
+/// Whether a recipe still gives the same motion.
+struct ReplayVerdict {
+  bool same = false;
+  std::uint64_t recorded_hash = 0;
+  std::uint64_t replayed_hash = 0;
+  std::int64_t first_step = -1;    ///< First step that differs, -1 if none.
+  BrickId first_brick = kNoBrick;  ///< First brick that differs.
+  std::string words;
+};
+Result<ReplayVerdict> replay(const Recording& recording, const RunConfig& config = {});
+
+}  // namespace topple
