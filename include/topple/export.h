@@ -16,7 +16,8 @@ Result<Layout> load_layout(const std::filesystem::path& path, std::span<const st
 /// Reads a `.topple` file.
 Result<Recording> load_recording(const std::filesystem::path& path);
 
-/// Writes a recording while it grows, under `path`.part until finish() renames it.
+/// Writes a recording while it grows, under `path`.part until finish() renames it. It may be created inside RunConfig::watch:
+/// it stays valid when the recording is moved, not when it is destroyed.
 class RecordingFile {
  public:
   static Result<RecordingFile> create(const Recording& recording, const std::filesystem::path& path);

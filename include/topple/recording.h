@@ -98,6 +98,7 @@ class Recording {
  private:
   friend class Recorder;
   friend class RecordingReader;
+  friend class RecordingWriter;
   struct Store;
   std::unique_ptr<Store> store_;
 };
@@ -122,6 +123,7 @@ class Recorder {
 };
 
 /// Encodes a recording as the pieces of docs/format.md, those finished since the last call each time, so that a file can grow with its run.
+/// It stays valid when the recording is moved (a run ends by moving its recording to the caller), not when it is destroyed.
 class RecordingWriter {
  public:
   explicit RecordingWriter(const Recording& recording);
@@ -130,7 +132,7 @@ class RecordingWriter {
   std::vector<std::uint8_t> end();    ///< The rest, energy, hashes, how it ended.
 
  private:
-  const Recording& recording_;
+  const Recording::Store* store_;
   std::int64_t tracks_ = 0;
   std::int64_t events_ = 0;
 };
