@@ -50,8 +50,7 @@ TEST_CASE("a standing brick has its thickness along, its width across and its he
 }
 
 TEST_CASE("the tip angle of the report's brick is that of its diagonal") {
-  // atan(0.679 / 4.353) = 0.154736 rad, series: x - x^3/3 + x^5/5 with x = 0.155984378...
-  CHECK(tip_angle({.along = 0.00679, .across = 0.02156, .up = 0.04353}) == doctest::Approx(std::atan2(0.679, 4.353)).epsilon(1e-15));
+  CHECK(tip_angle({.along = 0.00679, .across = 0.02156, .up = 0.04353}) == doctest::Approx(std::atan(0.679 / 4.353)).epsilon(1e-15));
 }
 
 TEST_CASE("whatever its stance and heading, the box of a brick as put down has the extents of the stance and stands on its foot") {
