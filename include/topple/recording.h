@@ -83,7 +83,8 @@ class Recording {
   const Layout& layout() const;
   const Recipe& recipe() const;
   const RunEnd& end() const;
-  double duration() const;  ///< Time of the last thing recorded [s].
+  double duration() const;   ///< Time of the last thing recorded [s].
+  double tolerance() const;  ///< How far a corner may be from where the model had it, as a fraction of the thickness.
 
   std::int64_t track_count() const;
   Track track(std::int64_t index) const;                           ///< In the order in which they were finished.
@@ -128,7 +129,7 @@ class RecordingWriter {
  public:
   explicit RecordingWriter(const Recording& recording);
   std::vector<std::uint8_t> begin();  ///< Magic, recipe, scene, bricks.
-  std::vector<std::uint8_t> more();   ///< What was finished since; empty if nothing was.
+  std::vector<std::uint8_t> more();   ///< Of what was finished since a few megabytes; call it until it gives nothing.
   std::vector<std::uint8_t> end();    ///< The rest, energy, hashes, how it ended.
 
  private:

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "topple/measure.h"
+
+namespace topple {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kFewest = 5;  // Fewer bricks have no 20 % and 80 % to speak of.
+
+// Who struck each brick first; a pushed brick is a beginning, whoever strikes it later.
+struct Strikes {
+  std::vector<BrickId> by;
+  BrickId last = kNoBrick;  // The last brick that the wave reached.
+};
+
+Strikes strikes_of(const Recording& recording) {
+  constexpr BrickId kUnknown = -2;
+  const auto bricks = static_cast<std::size_t>(recording.layout().brick_count());
+  Strikes strikes{std::vector<BrickId>(bricks, kUnknown), kNoBrick};
+  for (std::int64_t i = 0; i < recording.event_count(); ++i) {
+    const Event event = recording.event(i);
+    BrickId& by = strikes.by[static_cast<std::size_t>(event.brick)];
+    if (event.kind == EventKind::pushed && by == kUnknown) by = kNoBrick;
+    if (event.kind == EventKind::struck && by == kUnknown) by = event.by;
+    if (event.kind == EventKind::arrived) {
+      if (by == kUnknown) by = kNoBrick;
+      strikes.last = event.brick;
+    }
+  }
+  return strikes;
+}
+
+// From the first to the last: followed backwards, so turned round at the end.
+std::vector<BrickId> trunk_of(const Strikes& strikes) {
+  std::vector<BrickId> trunk;
+  for (BrickId brick = strikes.last; brick >= 0 && trunk.size() < strikes.by.size(); brick = strikes.by[static_cast<std::size_t>(brick)]) {
+    trunk.push_back(brick);
+  }
+  std::reverse(trunk.begin(), trunk.end());
+  return trunk;
+}
+
+std::vector<double> distances(const Layout& layout, std::span<const BrickId> trunk) {
+  std::vector<double> distance(trunk.size(), 0.0);
+  for (std::size_t i = 1; i < trunk.size(); ++i) {
+    const Vec3& from = layout.bricks[static_cast<std::size_t>(trunk[i - 1])].foot;
+    distance[i] = distance[i - 1] + norm(layout.bricks[static_cast<std::size_t>(trunk[i])].foot - from);
+  }
+  return distance;
+}
+
+std::vector<double> arrivals(const Recording& recording, std::span<const BrickId> trunk) {
+  std::vector<std::int32_t> place(static_cast<std::size_t>(recording.layout().brick_count()), -1);
+  for (std::size_t i = 0; i < trunk.size(); ++i) place[static_cast<std::size_t>(trunk[i])] = static_cast<std::int32_t>(i);
+  std::vector<double> arrival(trunk.size(), kNever);
+  for (std::int64_t i = 0; i < recording.event_count(); ++i) {
+    const Event event = recording.event(i);
+    const std::int32_t index = place[static_cast<std::size_t>(event.brick)];
+    if (event.kind == EventKind::arrived && index >= 0) arrival[static_cast<std::size_t>(index)] = event.time;
+  }
+  return arrival;
+}
+
+double speed_between(const Wave& wave, std::size_t from, std::size_t to) {
+  const double time = wave.arrival[to] - wave.arrival[from];
+  return time > 0.0 ? (wave.distance[to] - wave.distance[from]) / time : kNever;
+}
+
+std::size_t at_fraction(std::size_t count, double fraction) {
+  return static_cast<std::size_t>(std::floor(fraction * static_cast<double>(count - 1) + 0.5));
+}
+
+}  // namespace
+
+Wave measure_wave(const Recording& recording) {
+  Wave wave;
+  wave.bricks = trunk_of(strikes_of(recording));
+  wave.distance = distances(recording.layout(), wave.bricks);
+  wave.arrival = arrivals(recording, wave.bricks);
+  const std::size_t count = wave.bricks.size();
+  if (count >= kFewest) wave.front_speed = speed_between(wave, at_fraction(count, 0.2), at_fraction(count, 0.8));
+  return wave;
+}
+
+double Wave::local_speed(std::size_t index, std::size_t window) const {
+  if (bricks.empty() || index >= bricks.size()) return kNever;
+  const std::size_t from = index - std::min(index, window);
+  const std::size_t to = index + std::min(bricks.size() - 1 - index, window);
+  return speed_between(*this, from, to);
+}
+
+RunSummary summarize(const Recording& recording) {
+  const Layout& layout = recording.layout();
+  RunSummary summary;
+  summary.bricks = layout.brick_count();
+  summary.duration = recording.duration();
+  for (BrickId brick = 0; brick < layout.brick_count(); ++brick) {
+    const BrickState state = recording.at(brick, summary.duration);
+    if (state.phase != Phase::resting) continue;
+    const Extents size = extents(layout.kind_of(brick), layout.bricks[static_cast<std::size_t>(brick)].stance);
+    if (std::abs(state.hinge.angle) > tip_angle(size)) ++summary.fallen;
+  }
+  summary.standing = summary.bricks - summary.fallen;
+  summary.front_speed = measure_wave(recording).front_speed;
+  return summary;
+}
+
+}  // namespace topple

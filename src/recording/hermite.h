@@ -1,0 +1,36 @@
+/// The polynomials between two knots.
+#pragma once
+
+#include "topple/model.h"
+#include "topple/recording.h"
+
+namespace topple {
+
+/// The quintic in u = 0..1 that has the angle, rate and acceleration of both its ends; without its constant term, the first angle.
+struct Quintic {
+  double c1 = 0.0, c2 = 0.0, c3 = 0.0, c4 = 0.0, c5 = 0.0;
+
+  double at(double u) const { return u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))); }
+  double slope(double u) const { return c1 + u * (2.0 * c2 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5))); }
+  double bend(double u) const { return 2.0 * c2 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5)); }
+};
+
+/// `span`: time between the knots [s], more than 0.
+Quintic quintic(const HingedKnot& first, const HingedKnot& last, double span);
+
+/// The state `time` seconds after the start of a hinged track; before its first knot the first, after its last knot the last.
+HingedState state_at(std::span<const HingedKnot> knots, double time);
+
+/// A free brick at a moment, its position against the brick as put down.
+struct FreeState {
+  Vec3 offset;  ///< [m]
+  Quat orientation;
+  Vec3 velocity;          ///< [m/s]
+  Vec3 angular_velocity;  ///< In world axes [rad/s].
+};
+FreeState state_at(std::span<const FreeKnot> knots, double time);
+
+/// The same between two knots, `span` seconds apart, at u = 0..1.
+FreeState between(const FreeKnot& first, const FreeKnot& last, double span, double u);
+
+}  // namespace topple
