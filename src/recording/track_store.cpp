@@ -1,10 +1,6 @@
 #include "recording/track_store.h"
 
 namespace topple {
-namespace {
-constexpr std::uint32_t kMostKnots = 0x7FFFFFFF;
-}
-
 void TrackStore::link(Piece piece) {
   std::int32_t& last = last_[static_cast<std::size_t>(piece.brick)];
   piece.previous = last;
@@ -14,23 +10,21 @@ void TrackStore::link(Piece piece) {
 
 void TrackStore::add(BrickId brick, double start, std::span<const HingedKnot> knots) {
   if (knots.empty()) return;
-  const auto count = static_cast<std::uint32_t>(knots.size()) & kMostKnots;
-  link({start, hinged_.append(knots), brick, count, 0, kNone, knots.back().time});
+  link({start, hinged_.append(knots), brick, static_cast<std::int32_t>(knots.size()), kNone, knots.back().time});
 }
 
 void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knots) {
   if (knots.empty()) return;
-  const auto count = static_cast<std::uint32_t>(knots.size()) & kMostKnots;
-  link({start, free_.append(knots), brick, count, 1, kNone, knots.back().time});
+  link({start, free_.append(knots), brick, -static_cast<std::int32_t>(knots.size()), kNone, knots.back().time});
 }
 
 Track TrackStore::track(std::size_t index) const {
   const Piece& piece = pieces_[index];
   Track track{piece.brick, piece.start, {}, {}};
-  if (piece.free != 0) {
-    track.free = {static_cast<const FreeKnot*>(piece.knots), piece.count};
+  if (piece.count < 0) {
+    track.free = {static_cast<const FreeKnot*>(piece.knots), static_cast<std::size_t>(-piece.count)};
   } else {
-    track.hinged = {static_cast<const HingedKnot*>(piece.knots), piece.count};
+    track.hinged = {static_cast<const HingedKnot*>(piece.knots), static_cast<std::size_t>(piece.count)};
   }
   return track;
 }

@@ -29,8 +29,7 @@ class TrackStore {
     double start;
     const void* knots;
     BrickId brick;
-    std::uint32_t count : 31;
-    std::uint32_t free : 1;
+    std::int32_t count;  // Less than 0: so many free knots.
     std::int32_t previous;
     float duration;
   };
