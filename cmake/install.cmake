@@ -15,3 +15,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/topple-config-version.cma
 install(FILES ${PROJECT_BINARY_DIR}/topple-config.cmake ${PROJECT_BINARY_DIR}/topple-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/topple)
 install(TARGETS topple_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# The page, if it was built; `topple show` finds it beside the program.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/studio/dist/ DESTINATION ${CMAKE_INSTALL_DATADIR}/topple/studio OPTIONAL)

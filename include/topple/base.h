@@ -17,9 +17,7 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-[[nodiscard]] inline std::unexpected<Error> failure(std::string message) {
-  return std::unexpected(Error{std::move(message)});
-}
+[[nodiscard]] inline std::unexpected<Error> failure(std::string message) { return std::unexpected(Error{std::move(message)}); }
 
 /// A brick's place in layout order, from 0; what messages and files call a brick.
 using BrickId = std::int32_t;
@@ -39,9 +37,7 @@ constexpr Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y 
 constexpr Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
 constexpr Vec3 operator*(double s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 constexpr double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+constexpr Vec3 cross(const Vec3& a, const Vec3& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 /// A unit quaternion: the rotation that takes a brick's axes to the world's.

@@ -32,10 +32,10 @@ struct Color {
 /// What many bricks share. The default is a real toppling domino.
 struct BrickKind {
   std::string name = "domino";
-  double height = 0.048;     ///< [m]
-  double width = 0.024;      ///< [m]
-  double thickness = 0.0075; ///< In the direction it falls [m].
-  double mass = 0.0085;      ///< [kg]
+  double height = 0.048;      ///< [m]
+  double width = 0.024;       ///< [m]
+  double thickness = 0.0075;  ///< In the direction it falls [m].
+  double mass = 0.0085;       ///< [kg]
   Surface surface;
   Color color;
 };
@@ -49,10 +49,10 @@ enum class Stance : std::uint8_t {
 
 /// One brick where it was put.
 struct Brick {
-  Vec3 foot;                           ///< Centre of the face it stands on [m]; z = 0 on the floor.
-  double heading = 0.0;                ///< The way it falls, from +x, counter-clockwise seen from above [rad].
-  std::uint16_t kind = 0;              ///< Index into Layout::kinds.
-  std::uint16_t color = 0;             ///< Index into Layout::colors.
+  Vec3 foot;                ///< Centre of the face it stands on [m]; z = 0 on the floor.
+  double heading = 0.0;     ///< The way it falls, from +x, counter-clockwise seen from above [rad].
+  std::uint16_t kind = 0;   ///< Index into Layout::kinds.
+  std::uint16_t color = 0;  ///< Index into Layout::colors.
   Stance stance = Stance::standing;
 };
 

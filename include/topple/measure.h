@@ -23,8 +23,8 @@ Wave measure_wave(const Recording& recording);
 
 struct RunSummary {
   std::int64_t bricks = 0;
-  std::int64_t fallen = 0;    ///< Rest past their tip angle, leaning or flat.
-  std::int64_t standing = 0;  ///< All others.
+  std::int64_t fallen = 0;                                        ///< Rest past their tip angle, leaning or flat.
+  std::int64_t standing = 0;                                      ///< All others.
   double front_speed = std::numeric_limits<double>::quiet_NaN();  ///< [m/s]
   double duration = 0.0;                                          ///< Simulated [s].
 };

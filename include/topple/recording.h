@@ -32,9 +32,9 @@ struct RunEnd {
 struct BrickState {
   Phase phase = Phase::standing;
   Pose pose;
-  Vec3 velocity;             ///< [m/s]
-  Vec3 angular_velocity;     ///< [rad/s]
-  HingedState hinge;         ///< Of a hinged brick; for a free one the tilt and its derivatives.
+  Vec3 velocity;          ///< [m/s]
+  Vec3 angular_velocity;  ///< [rad/s]
+  HingedState hinge;      ///< Of a hinged brick; for a free one the tilt and its derivatives.
 };
 
 /// A knot of a hinged track; between two knots the angle is the quintic Hermite polynomial of angle, rate and acceleration.
@@ -87,14 +87,14 @@ class Recording {
   double tolerance() const;  ///< How far a corner may be from where the model had it, as a fraction of the thickness.
 
   std::int64_t track_count() const;
-  Track track(std::int64_t index) const;                           ///< In the order in which they were finished.
-  void tracks_of(BrickId brick, std::vector<Track>& out) const;    ///< Of one brick, in the order of time.
-  BrickState at(BrickId brick, double time) const;                 ///< Any brick at any time: before its tracks it stands, after them it rests.
+  Track track(std::int64_t index) const;                         ///< In the order in which they were finished.
+  void tracks_of(BrickId brick, std::vector<Track>& out) const;  ///< Of one brick, in the order of time.
+  BrickState at(BrickId brick, double time) const;  ///< Any brick at any time: before its tracks it stands, after them it rests.
   std::int64_t event_count() const;
-  Event event(std::int64_t index) const;                           ///< In the order of time.
-  std::span<const EnergySample> energy() const;                    ///< Thinned evenly to at most 16,384 samples.
+  Event event(std::int64_t index) const;         ///< In the order of time.
+  std::span<const EnergySample> energy() const;  ///< Thinned evenly to at most 16,384 samples.
   const HashTrail& hashes() const;
-  std::size_t memory() const;                                      ///< Held by tracks and events [bytes].
+  std::size_t memory() const;  ///< Held by tracks and events [bytes].
 
  private:
   friend class Recorder;
