@@ -13,9 +13,12 @@ constexpr double kHalfRoot = 0.70710678118654752440;  // sin and cos of 45 degre
 /// A flat brick lies as one that has fallen the way it heads; one on its side lies on its right.
 Quat stance_turn(Stance stance) {
   switch (stance) {
-    case Stance::flat: return {kHalfRoot, 0.0, kHalfRoot, 0.0};
-    case Stance::on_side: return {kHalfRoot, kHalfRoot, 0.0, 0.0};
-    case Stance::standing: break;
+    case Stance::flat:
+      return {kHalfRoot, 0.0, kHalfRoot, 0.0};
+    case Stance::on_side:
+      return {kHalfRoot, kHalfRoot, 0.0, 0.0};
+    case Stance::standing:
+      break;
   }
   return {};
 }
@@ -23,9 +26,12 @@ Quat stance_turn(Stance stance) {
 /// The own axis of a brick that points up as it was put down.
 Vec3 up_axis(Stance stance) {
   switch (stance) {
-    case Stance::flat: return {-1.0, 0.0, 0.0};
-    case Stance::on_side: return {0.0, 1.0, 0.0};
-    case Stance::standing: break;
+    case Stance::flat:
+      return {-1.0, 0.0, 0.0};
+    case Stance::on_side:
+      return {0.0, 1.0, 0.0};
+    case Stance::standing:
+      break;
   }
   return {0.0, 0.0, 1.0};
 }
@@ -34,9 +40,12 @@ Vec3 up_axis(Stance stance) {
 
 Extents extents(const BrickKind& kind, Stance stance) {
   switch (stance) {
-    case Stance::flat: return {kind.height, kind.width, kind.thickness};
-    case Stance::on_side: return {kind.thickness, kind.height, kind.width};
-    case Stance::standing: break;
+    case Stance::flat:
+      return {kind.height, kind.width, kind.thickness};
+    case Stance::on_side:
+      return {kind.thickness, kind.height, kind.width};
+    case Stance::standing:
+      break;
   }
   return {kind.thickness, kind.width, kind.height};
 }

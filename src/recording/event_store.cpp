@@ -23,14 +23,16 @@ void EventStore::add(const Entry& entry) {
     groups_.back().loaded |= std::uint64_t{1} << place;
     loads_.push_back(entry.load);
   }
-  events_.push_back({entry.time, static_cast<std::uint32_t>(entry.brick) & kBrickMask, static_cast<std::uint32_t>(entry.kind) & 15U, entry.by});
+  events_.push_back(
+      {entry.time, static_cast<std::uint32_t>(entry.brick) & kBrickMask, static_cast<std::uint32_t>(entry.kind) & 15U, entry.by});
 }
 
 EventStore::Entry EventStore::entry(std::size_t index) const {
   const Compact& event = events_[index];
   const Group& group = groups_[index / 64];
   const std::uint64_t bit = std::uint64_t{1} << (index % 64);
-  Entry entry{event.time, static_cast<EventKind>(event.kind), static_cast<BrickId>(event.brick), event.by, {kNone, kNone, kNone, kNone, kNone}};
+  Entry entry{
+      event.time, static_cast<EventKind>(event.kind), static_cast<BrickId>(event.brick), event.by, {kNone, kNone, kNone, kNone, kNone}};
   if ((group.loaded & bit) != 0) entry.load = loads_[group.before + static_cast<std::size_t>(std::popcount(group.loaded & (bit - 1)))];
   return entry;
 }

@@ -87,7 +87,7 @@ TEST_CASE("for boxes that overlap the separation is the best of all directions, 
     if (fast >= 0.0) continue;
     ++overlapping;
     const double searched = gap_by_search(a, b, random);
-    CHECK(searched <= fast + 1e-15);       // no direction is better than the fifteen
+    CHECK(searched <= fast + 1e-15);            // no direction is better than the fifteen
     if (i < 60) CHECK(searched > fast - 2e-3);  // and the search, which may stop in a side valley, comes near
   }
   CHECK(overlapping > 100);

@@ -172,7 +172,8 @@ TEST_CASE("a long wave costs few bytes a brick") {
   const Recording recording = record(row(kBricks), script);
   std::int64_t knots = 0;
   for (std::int64_t i = 0; i < recording.track_count(); ++i) knots += static_cast<std::int64_t>(recording.track(i).hinged.size());
-  MESSAGE("of each brick " << static_cast<double>(knots) / kBricks << " knots, " << static_cast<double>(recording.memory()) / kBricks << " bytes");
+  MESSAGE("of each brick " << static_cast<double>(knots) / kBricks << " knots, " << static_cast<double>(recording.memory()) / kBricks
+                           << " bytes");
   // Twelve hits that matter are 24 knots of 16 bytes and the two ends; a piece and its index take 36 bytes more.
   CHECK(static_cast<double>(recording.memory()) / kBricks < 26 * 16 + 36 + 25);
 }
