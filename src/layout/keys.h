@@ -10,11 +10,12 @@ using Key = std::string_view;
 
 inline constexpr std::array<Key, 10> kTop{"title", "gravity_m_s2", "contact", "kind", "push", "row", "curve", "brick", "noise", "model"};
 inline constexpr std::array<Key, 4> kContact{"brick_friction", "floor_friction", "brick_restitution", "floor_restitution"};
-inline constexpr std::array<Key, 11> kKind{"name",           "height_mm",      "width_mm",          "thickness_mm",
-                                           "mass_g",         "density_kg_m3",  "color",             "brick_friction",
-                                           "floor_friction", "brick_restitution", "floor_restitution"};
+inline constexpr std::array<Key, 11> kKind{
+    "name",  "height_mm",      "width_mm",       "thickness_mm",      "mass_g",           "density_kg_m3",
+    "color", "brick_friction", "floor_friction", "brick_restitution", "floor_restitution"};
 inline constexpr std::array<Key, 7> kPush{"brick", "at_s", "angular_speed_rad_s", "force_n", "height_mm", "duration_ms", "impulse_n_s"};
-inline constexpr std::array<Key, 10> kRow{"from_mm", "heading_deg", "count", "length_mm", "pitch_mm", "gap_mm", "kind", "color", "color_to", "pose"};
+inline constexpr std::array<Key, 10> kRow{"from_mm", "heading_deg", "count", "length_mm", "pitch_mm",
+                                          "gap_mm",  "kind",        "color", "color_to",  "pose"};
 inline constexpr std::array<Key, 7> kCurve{"points_mm", "pitch_mm", "gap_mm", "kind", "color", "color_to", "pose"};
 inline constexpr std::array<Key, 5> kBrick{"at_mm", "heading_deg", "kind", "color", "pose"};
 inline constexpr std::array<Key, 3> kNoise{"seed", "position_mm", "heading_deg"};

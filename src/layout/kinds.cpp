@@ -8,9 +8,9 @@
 namespace topple {
 namespace {
 
-constexpr Range kSize{0.1, 20000.0};              // [mm]
-constexpr Range kMass{0.0, 1e9, true};            // [g]
-constexpr Range kDensity{0.0, 30000.0, true};     // [kg/m^3]
+constexpr Range kSize{0.1, 20000.0};           // [mm]
+constexpr Range kMass{0.0, 1e9, true};         // [g]
+constexpr Range kDensity{0.0, 30000.0, true};  // [kg/m^3]
 constexpr Range kFriction{0.0, 10.0};
 constexpr Range kRestitution{0.0, 1.0};
 constexpr std::int64_t kMaxKinds = 1000;
@@ -52,7 +52,8 @@ BrickKind read_kind(Section& section, const Surface& surface, bool first) {
   const double least = std::min({kind.height, kind.width, kind.thickness}), most = std::max({kind.height, kind.width, kind.thickness});
   constexpr double kLeastShare = 1e-3;  // slimmer bricks would make the search for overlaps slow
   if (section.good() && least < kLeastShare * most) {
-    section.missing("its longest side must be at most 1,000 times its shortest, is " + count_text(static_cast<long long>(most / least)) + " times");
+    section.missing("its longest side must be at most 1,000 times its shortest, is " + count_text(static_cast<long long>(most / least)) +
+                    " times");
   }
   kind.mass = read_mass(section, kind);
   kind.surface = read_surface(section, surface);
@@ -109,7 +110,8 @@ std::vector<BrickKind> read_kinds(const Section& top, const Surface& surface, Pr
     kinds.push_back(read_kind(section, surface, kinds.empty()));
     const std::string& name = kinds.back().name;
     const auto same = [&](const BrickKind& kind) { return &kind != &kinds.back() && kind.name == name; };
-    if (section.good() && std::any_of(kinds.begin(), kinds.end(), same)) section.problem("name", "two kinds are called \"" + printable(name) + "\"");
+    if (section.good() && std::any_of(kinds.begin(), kinds.end(), same))
+      section.problem("name", "two kinds are called \"" + printable(name) + "\"");
   }
   if (kinds.empty()) {
     kinds.emplace_back();

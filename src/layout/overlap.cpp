@@ -56,7 +56,8 @@ class OverlapSearch {
         if (!wide.entries.empty()) search_coarser(grids_[static_cast<std::size_t>(level)], wide);
       }
     }
-    std::sort(found_.begin(), found_.end(), [](const Overlap& a, const Overlap& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
+    std::sort(found_.begin(), found_.end(),
+              [](const Overlap& a, const Overlap& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
     return std::move(found_);
   }
 
@@ -118,12 +119,14 @@ class OverlapSearch {
     const std::vector<Entry>& entries = grid.entries;
     for (std::size_t i = 0; i < entries.size() && !full(); ++i) {
       const std::uint64_t cell = entries[i].cell;
-      for (std::size_t j = i + 1; j < entries.size() && entries[j].cell <= cell + 1 && !full(); ++j) test(entries[i].brick, entries[j].brick);
+      for (std::size_t j = i + 1; j < entries.size() && entries[j].cell <= cell + 1 && !full(); ++j)
+        test(entries[i].brick, entries[j].brick);
       for (std::size_t row = 0; row < kLater.size(); ++row) {
         const std::uint64_t middle = cell + kLater[row];
         std::size_t& cursor = cursors[row];  // cells ascend, so it never has to go back
         while (cursor < entries.size() && entries[cursor].cell < middle - 1) ++cursor;
-        for (std::size_t j = cursor; j < entries.size() && entries[j].cell <= middle + 1 && !full(); ++j) test(entries[i].brick, entries[j].brick);
+        for (std::size_t j = cursor; j < entries.size() && entries[j].cell <= middle + 1 && !full(); ++j)
+          test(entries[i].brick, entries[j].brick);
       }
     }
   }
@@ -163,7 +166,8 @@ class OverlapSearch {
     if (clearly_apart(a, fa, b, fb)) return;
     const double depth = -separation({standing_pose(layout_, first), half_extents(layout_.kind_of(first))},
                                      {standing_pose(layout_, second), half_extents(layout_.kind_of(second))});
-    if (depth > kTolerance * std::fmin(fa.thickness, fb.thickness)) found_.push_back({std::min(first, second), std::max(first, second), depth});
+    if (depth > kTolerance * std::fmin(fa.thickness, fb.thickness))
+      found_.push_back({std::min(first, second), std::max(first, second), depth});
   }
 
   const Layout& layout_;
@@ -186,14 +190,16 @@ void report_overlaps(const Layout& layout, const std::vector<PartPlan>& plans, P
   constexpr std::size_t kMost = 1000;
   const std::vector<Overlap> overlaps = find_overlaps(layout, kMost);
   const auto part_of = [&](BrickId brick) {
-    const auto after = std::upper_bound(layout.parts.begin(), layout.parts.end(), brick, [](BrickId id, const Part& part) { return id < part.first; });
+    const auto after =
+        std::upper_bound(layout.parts.begin(), layout.parts.end(), brick, [](BrickId id, const Part& part) { return id < part.first; });
     return static_cast<std::size_t>(after - layout.parts.begin()) - 1;
   };
   for (const Overlap& overlap : overlaps) {
     const std::size_t one = part_of(overlap.first), other = part_of(overlap.second);
     problems.add(plans[other].place, plans[other].path,
-                 "brick " + std::to_string(overlap.first) + " (" + plans[one].name + ") and brick " + std::to_string(overlap.second) + " (" +
-                     plans[other].name + ") overlap by " + number_text(std::round(overlap.depth * 1e6) / 1e3) + " mm; bricks may touch, not overlap");
+                 "brick " + std::to_string(overlap.first) + " (" + plans[one].name + ") and brick " + std::to_string(overlap.second) +
+                     " (" + plans[other].name + ") overlap by " + number_text(std::round(overlap.depth * 1e6) / 1e3) +
+                     " mm; bricks may touch, not overlap");
   }
   if (overlaps.size() == kMost) problems.stop_counting();
 }

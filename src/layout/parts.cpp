@@ -9,11 +9,11 @@
 namespace topple {
 namespace {
 
-constexpr Range kHeading{-3600.0, 3600.0};            // [deg]
-constexpr Range kGap{0.0, 20000.0};                   // [mm]
-constexpr Range kPitch{0.0, 40000.0, true};           // [mm]
-constexpr Range kLength{0.0, 1e8};                    // [mm]
-constexpr double kSnap = 1e-9;                        // of a pitch: 100 pitches are 100 pitches, whatever the last digit says
+constexpr Range kHeading{-3600.0, 3600.0};   // [deg]
+constexpr Range kGap{0.0, 20000.0};          // [mm]
+constexpr Range kPitch{0.0, 40000.0, true};  // [mm]
+constexpr Range kLength{0.0, 1e8};           // [mm]
+constexpr double kSnap = 1e-9;               // of a pitch: 100 pitches are 100 pitches, whatever the last digit says
 
 /// Kind, pose and colours, which rows, curves and bricks share.
 PartPlan read_style(Section& section, std::span<const BrickKind> kinds) {
@@ -27,7 +27,8 @@ PartPlan read_style(Section& section, std::span<const BrickKind> kinds) {
     } else {
       std::vector<std::string_view> names;
       for (const BrickKind& kind : kinds) names.push_back(kind.name);
-      section.problem("kind", "there is no kind \"" + printable(*name) + "\"; the nearest is \"" + printable(nearest_key(*name, names)) + "\"");
+      section.problem("kind",
+                      "there is no kind \"" + printable(*name) + "\"; the nearest is \"" + printable(nearest_key(*name, names)) + "\"");
     }
   }
   plan.stance = section.stance("pose").value_or(Stance::standing);
@@ -42,14 +43,15 @@ std::optional<double> read_pitch(Section& section, const PartPlan& plan, std::sp
   const auto pitch = section.number("pitch_mm", kPitch);
   const auto gap = section.number("gap_mm", kGap);
   if (section.has("pitch_mm") == section.has("gap_mm")) {
-    section.missing(section.has("gap_mm") ? "pitch_mm and gap_mm are both there; exactly one must be" : "exactly one of pitch_mm and gap_mm must be there");
+    section.missing(section.has("gap_mm") ? "pitch_mm and gap_mm are both there; exactly one must be"
+                                          : "exactly one of pitch_mm and gap_mm must be there");
     return std::nullopt;
   }
   if (gap) return *gap / 1000.0 + along;
   if (!pitch || !section.good()) return std::nullopt;
   if (*pitch / 1000.0 < along * (1.0 - kSnap)) {
-    section.problem("pitch_mm", "must be at least the brick's " + number_text(along * 1000.0) + " along its heading, or the bricks overlap; is " +
-                                    number_text(*pitch));
+    section.problem("pitch_mm", "must be at least the brick's " + number_text(along * 1000.0) +
+                                    " along its heading, or the bricks overlap; is " + number_text(*pitch));
     return std::nullopt;
   }
   return *pitch / 1000.0;
@@ -121,7 +123,8 @@ std::optional<PartPlan> read_row(Section& section, std::span<const BrickKind> ki
   const auto count = section.whole("count", 1, kMaxBricks);
   const auto length = section.number("length_mm", kLength);
   if (section.has("count") == section.has("length_mm")) {
-    section.missing(section.has("count") ? "count and length_mm are both there; exactly one must be" : "exactly one of count and length_mm must be there");
+    section.missing(section.has("count") ? "count and length_mm are both there; exactly one must be"
+                                         : "exactly one of count and length_mm must be there");
   }
   const auto pitch = read_pitch(section, plan, kinds);
   if (!section.good() || !pitch) return std::nullopt;
@@ -141,7 +144,8 @@ std::optional<PartPlan> read_curve(Section& section, std::span<const BrickKind> 
   if (points) {
     constexpr double kApart = 1e-6;  // [m]; a thousandth of a millimetre, for a person the same place
     constexpr std::size_t kMostPoints = 100'000;
-    if (points->size() > kMostPoints) section.problem("points_mm", "must have at most 100,000 points, has " + count_text(static_cast<long long>(points->size())));
+    if (points->size() > kMostPoints)
+      section.problem("points_mm", "must have at most 100,000 points, has " + count_text(static_cast<long long>(points->size())));
     for (std::size_t i = 1; i < points->size(); ++i) {
       if (norm((*points)[i] - (*points)[i - 1]) >= kApart) continue;
       section.problem("points_mm", "points " + std::to_string(i - 1) + " and " + std::to_string(i) + " are in one place");

@@ -9,12 +9,12 @@
 namespace topple {
 namespace {
 
-constexpr Range kDelay{0.0, 1e6};                // [s]
-constexpr Range kAngularSpeed{0.0, 10000.0};     // [rad/s]
-constexpr Range kForce{0.0, 1e6};                // [N]
-constexpr Range kImpulse{0.0, 1e6};              // [N s]
-constexpr Range kHeight{0.0, 20000.0};           // [mm]
-constexpr Range kDuration{0.0, 1e6, true};       // [ms]
+constexpr Range kDelay{0.0, 1e6};             // [s]
+constexpr Range kAngularSpeed{0.0, 10000.0};  // [rad/s]
+constexpr Range kForce{0.0, 1e6};             // [N]
+constexpr Range kImpulse{0.0, 1e6};           // [N s]
+constexpr Range kHeight{0.0, 20000.0};        // [mm]
+constexpr Range kDuration{0.0, 1e6, true};    // [ms]
 
 /// The three ways, of which a push has exactly one.
 void read_way(Section& section, Push& push) {
@@ -72,8 +72,8 @@ std::vector<Push> place_pushes(const std::vector<PushPlan>& plans, const Layout&
     constexpr double kLastDigits = 1e-12;
     if (height_of(push) > up * (1.0 + kLastDigits)) {
       problems.add(plan.height_place, plan.path + ".height_mm",
-                   "must be a number from 0 to " + number_text(up * 1000.0) + ", the height of brick " + std::to_string(push.brick) + "; is " +
-                       number_text(height_of(push) * 1000.0));
+                   "must be a number from 0 to " + number_text(up * 1000.0) + ", the height of brick " + std::to_string(push.brick) +
+                       "; is " + number_text(height_of(push) * 1000.0));
     }
   }
   return pushes;

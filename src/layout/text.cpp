@@ -38,11 +38,14 @@ class Scanner {
 
   std::optional<Unreadable> scan() {
     constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
-    if (text_.size() > kMaxBytes) return stop("the file has " + count_text(static_cast<long long>(text_.size())) + " bytes, at most " + count_text(kMaxBytes) + " are read");
+    if (text_.size() > kMaxBytes)
+      return stop("the file has " + count_text(static_cast<long long>(text_.size())) + " bytes, at most " + count_text(kMaxBytes) +
+                  " are read");
     while (at_ < text_.size()) {
       const std::size_t bytes = character_bytes(text_.substr(at_));
       if (bytes == 0) {
-        return stop("not UTF-8: byte " + std::to_string(at_) + " (counted from 0) is 0x" + hexadecimal(static_cast<unsigned char>(text_[at_])));
+        return stop("not UTF-8: byte " + std::to_string(at_) + " (counted from 0) is 0x" +
+                    hexadecimal(static_cast<unsigned char>(text_[at_])));
       }
       see(text_[at_]);
       if (depth_ > kMaxDepth) return stop("nested more than " + std::to_string(kMaxDepth) + " brackets deep");
