@@ -29,10 +29,11 @@ stage() {
   [ "$verdict" = ok ] || { tail -n 60 "$log"; say "All it said is in $log"; }
 }
 
-# count LOG: the sums of 'passed' and 'failed' over doctest's totals, unittest's, and plain closing lines.
+# count LOG: the sums of 'passed' and 'failed' over doctest's totals, vitest's, unittest's, and plain closing lines.
 count() {
   sed 's/\x1b\[[0-9;]*m//g' "$1" | awk '
     /\[doctest\] test cases:/ { split($0, part, "|"); good += part[2]; bad += part[3] }
+    /^ +Tests +[0-9]+ (passed|failed)/ { for (i = 2; i < NF; ++i) { if ($(i + 1) == "passed") good += $i; if ($(i + 1) == "failed") bad += $i } }
     /^[0-9]+ passed, [0-9]+ failed/ { good += $1; bad += $3 }
     /^Ran [0-9]+ tests? in / { good += $2 }
     /^FAILED \((failures|errors)=/ { n = split($0, part, "="); for (i = 2; i <= n; ++i) { bad += part[i]; good -= part[i] } }
