@@ -1,0 +1,93 @@
+/**
+ * `window.topple`: what tests and scripts may ask of the page. Times are seconds of the run, angles radians, bricks numbers in layout
+ * order. Nothing in the page depends on it.
+ */
+
+import type { Player } from './player/player.svelte.ts';
+import type { Stage } from './player/stage.svelte.ts';
+import { turnAt } from './recording/motion.ts';
+import { lastNotOver } from './recording/wave.ts';
+import type { Way } from './view/rig.ts';
+
+export interface PageInterface {
+  /** Whether a recording is open. */
+  readonly loaded: boolean;
+  readonly bricks: number;
+  readonly time: number;
+  readonly duration: number;
+  readonly playing: boolean;
+  /** The chosen brick, -1: none. */
+  readonly chosen: number;
+  /** Bricks past their tip angle for good. */
+  readonly fallen: number;
+  /** Where the still is, 0 to 1. */
+  readonly still: number;
+  /** What the page's own code cost in the last frames [ms]. */
+  readonly frameCosts: readonly number[];
+  seek(time: number): void;
+  choose(brick: number): void;
+  setWay(way: Way): void;
+  /** Tilt that the tracks give for a brick at the playhead's time; > 0 the way it heads. */
+  tilt(brick: number): number;
+  /** Tilt of the brick as it is drawn: from the orientation that the graphics card was given. */
+  drawnTilt(brick: number): number;
+  /** Height of the brick's middle as it is drawn [m]. */
+  drawnHeight(brick: number): number;
+  /** Middle of a brick in the page [CSS px], null out of sight. */
+  placeOf(brick: number): { x: number; y: number } | null;
+  /** Looks from a place at a place [m, in the layout's axes]. */
+  lookFrom(position: [number, number, number], target: [number, number, number]): void;
+  /** Averages a still of so many frames. */
+  finishStill(frames?: number): Promise<void>;
+}
+
+declare global {
+  interface Window {
+    topple: PageInterface;
+  }
+}
+
+export function installPageInterface(player: Player, stage: Stage): void {
+  window.topple = {
+    get loaded() { return player.loaded !== null && stage.playhead !== null; },
+    get bricks() { return player.recording?.bricks.count ?? 0; },
+    get time() { return player.time; },
+    get duration() { return player.duration; },
+    get playing() { return player.playing; },
+    get chosen() { return player.chosen; },
+    get fallen() { return player.loaded ? lastNotOver(player.loaded.falls, player.time) + 1 : 0; },
+    get still() { return stage.stillPart; },
+    get frameCosts() { return stage.costs; },
+    seek: (time) => {
+      player.seek(time);
+      stage.wake();
+    },
+    choose: (brick) => player.choose(brick),
+    setWay: (way) => stage.setWay(way),
+    tilt: (brick) => {
+      const turn = { angle: 0, rate: 0, acceleration: 0 };
+      if (player.recording) turnAt(player.recording, brick, player.time, turn);
+      return turn.angle;
+    },
+    drawnTilt: (brick) => {
+      const [x, y] = stage.playhead?.turn.subarray(4 * brick, 4 * brick + 2) ?? [0, 0];
+      return Math.acos(Math.max(-1, 1 - 2 * (x * x + y * y)));
+    },
+    drawnHeight: (brick) => stage.playhead?.position[3 * brick + 2] ?? NaN,
+    placeOf: (brick) => {
+      const outline = stage.view?.outline(brick);
+      if (!outline || !stage.view) return null;
+      const box = stage.view.canvas.getBoundingClientRect();
+      const n = outline.points.length;
+      const [x, y] = [0, 1].map((axis) => outline.points.reduce((sum, p) => sum + p[axis] / n, 0));
+      return { x: box.left + x, y: box.top + y };
+    },
+    lookFrom: (position, target) => {
+      stage.lookFrom(position, target);
+    },
+    finishStill: async (frames) => {
+      stage.drawFrame(0);
+      await stage.view?.finishStill(frames);
+    },
+  };
+}

@@ -1,0 +1,41 @@
+/** Hermite interpolation between two knots, as docs/format.md fixes it. */
+
+/** Angle [rad], its rate [rad/s] and acceleration [rad/s²]. */
+export interface Turn {
+  angle: number;
+  rate: number;
+  acceleration: number;
+}
+
+/**
+ * Quintic Hermite polynomial through value, rate and acceleration at both ends.
+ * @param s Where, 0 at the first knot and 1 at the second.
+ * @param h Time between the knots [s], over 0.
+ */
+export function quintic(
+  s: number, h: number,
+  p0: number, v0: number, a0: number,
+  p1: number, v1: number, a1: number,
+  out: Turn,
+): void {
+  // In s, with derivatives scaled by h and h²: p = c0 + c1 s + ... + c5 s^5.
+  const c1 = v0 * h;
+  const c2 = 0.5 * a0 * h * h;
+  const dp = p1 - p0 - c1 - c2;
+  const dv = v1 * h - c1 - 2 * c2;
+  const da = a1 * h * h - 2 * c2;
+  const c3 = 10 * dp - 4 * dv + 0.5 * da;
+  const c4 = -15 * dp + 7 * dv - da;
+  const c5 = 6 * dp - 3 * dv + 0.5 * da;
+  out.angle = p0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
+  out.rate = (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h;
+  out.acceleration = (2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / (h * h);
+}
+
+/** Cubic Hermite polynomial through value and rate at both ends; `s` and `h` as above. */
+export function cubic(s: number, h: number, p0: number, v0: number, p1: number, v1: number): number {
+  const c1 = v0 * h;
+  const c2 = 3 * (p1 - p0) - 2 * c1 - v1 * h;
+  const c3 = 2 * (p0 - p1) + c1 + v1 * h;
+  return p0 + s * (c1 + s * (c2 + s * c3));
+}

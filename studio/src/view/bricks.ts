@@ -1,0 +1,98 @@
+/** All bricks as one instanced draw. A frame uploads only the runs of bricks that moved. */
+
+import { DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, Sphere, Vector3 } from 'three';
+import type { Playhead } from '../recording/playhead.ts';
+import { halfExtents } from '../recording/pose.ts';
+import type { Recording } from '../recording/types.ts';
+import { brickGeometry, roundingFor } from './brick_geometry.ts';
+import { brickDepthMaterial, brickMaterial } from './brick_material.ts';
+
+/** Bricks between two that moved that are uploaded with them rather than starting another run. */
+const kRunGap = 64;
+
+export class BrickMesh {
+  readonly mesh: Mesh;
+  private readonly geometry: InstancedBufferGeometry;
+  private readonly position: InstancedBufferAttribute;
+  private readonly turn: InstancedBufferAttribute;
+  private readonly color: InstancedBufferAttribute;
+
+  constructor(
+    private readonly recording: Recording,
+    private readonly playhead: Playhead,
+  ) {
+    const count = recording.bricks.count;
+    this.geometry = brickGeometry(roundingFor(count));
+    this.geometry.instanceCount = count;
+    this.position = new InstancedBufferAttribute(playhead.position, 3).setUsage(DynamicDrawUsage);
+    this.turn = new InstancedBufferAttribute(playhead.turn, 4).setUsage(DynamicDrawUsage);
+    this.color = new InstancedBufferAttribute(new Uint8Array(count * 4), 4, true);
+    const half = new InstancedBufferAttribute(new Float32Array(count * 3), 3);
+    for (let brick = 0; brick < count; brick++) half.setXYZ(brick, ...halfExtents(recording, brick));
+    this.geometry.setAttribute('iPosition', this.position);
+    this.geometry.setAttribute('iTurn', this.turn);
+    this.geometry.setAttribute('iHalf', half);
+    this.geometry.setAttribute('iColor', this.color);
+    this.geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
+    this.paint();
+    this.mesh = new Mesh(this.geometry, brickMaterial());
+    this.mesh.customDepthMaterial = brickDepthMaterial();
+    this.mesh.frustumCulled = false;
+    this.mesh.castShadow = true;
+    this.mesh.receiveShadow = true;
+  }
+
+  /** Colours of the layout, each brick a shade off its neighbours, and a pair of pips that its number decides. */
+  paint(heat: ((brick: number) => [number, number, number]) | null = null): void {
+    const { bricks, colors } = this.recording;
+    const rgb = colors.map((color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16)));
+    for (let brick = 0; brick < bricks.count; brick++) {
+      const mixed = scatter(brick);
+      const shade = 0.965 + 0.07 * (((mixed >>> 8) & 255) / 255);
+      const base = heat ? heat(brick) : rgb[bricks.color[brick]];
+      for (let i = 0; i < 3; i++) this.color.array[4 * brick + i] = Math.min(255, base[i] * (heat ? 1 : shade));
+      this.color.array[4 * brick + 3] = (mixed >>> 16) % 49;
+    }
+    this.color.clearUpdateRanges();
+    this.color.needsUpdate = true;
+  }
+
+  /** Tells the graphics card which bricks the playhead's last move touched. */
+  update(): void {
+    const { touched, touchedCount } = this.playhead;
+    if (touchedCount === 0) return;
+    const moved = touched.subarray(0, touchedCount);
+    if (touchedCount < 4096) moved.sort();
+    this.upload(this.position, 3, moved);
+    this.upload(this.turn, 4, moved);
+  }
+
+  private upload(attribute: InstancedBufferAttribute, width: number, moved: Uint32Array): void {
+    attribute.needsUpdate = true;
+    if (moved.length >= 4096) {
+      attribute.clearUpdateRanges();
+      return;
+    }
+    let first = moved[0];
+    let last = first;
+    for (const brick of moved) {
+      if (brick > last + kRunGap) {
+        attribute.addUpdateRange(first * width, (last - first + 1) * width);
+        first = brick;
+      }
+      last = brick;
+    }
+    attribute.addUpdateRange(first * width, (last - first + 1) * width);
+  }
+
+  dispose(): void {
+    this.geometry.dispose();
+  }
+}
+
+/** Spreads consecutive numbers over 32 bits, the same everywhere. */
+function scatter(brick: number): number {
+  let x = Math.imul(brick + 1, 0x9e3779b1);
+  x = Math.imul(x ^ (x >>> 15), 0x85ebca6b);
+  return (x ^ (x >>> 13)) >>> 0;
+}

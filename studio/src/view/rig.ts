@@ -1,0 +1,175 @@
+/** The camera and its four ways: orbit (free), front (follows the wave), eye (low beside a brick), top. */
+
+import { PerspectiveCamera, Vector3 } from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { defaultDirection, frame, type Aim, type Insets } from './framing.ts';
+
+export type Way = 'orbit' | 'front' | 'eye' | 'top';
+
+const kFlight = 0.55;
+/** How fast the camera closes in on the front [1/s]. */
+const kFollow = 5;
+
+/** A place on the table and the way a brick there heads. */
+export interface Spot {
+  place: Vector3;
+  heading: number;
+}
+
+export class Rig {
+  readonly camera = new PerspectiveCamera(30, 1.5, 0.01, 100);
+  readonly controls: OrbitControls;
+  way: Way = 'orbit';
+  insets: Insets = { left: 0.04, right: 0.04, top: 0.13, bottom: 0.07 };
+  /** Cut instead of flying. */
+  still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  private flight: { from: Aim; to: Aim; part: number } | null = null;
+
+  /**
+   * @param points Feet and tops of bricks, enough to frame the run by.
+   * @param brickHeight Of a usual brick [m].
+   */
+  constructor(
+    element: HTMLElement,
+    private readonly points: Vector3[],
+    private readonly brickHeight: number,
+    changed: () => void,
+  ) {
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, element);
+    this.controls.enableDamping = !this.still;
+    this.controls.dampingFactor = 0.12;
+    this.controls.maxPolarAngle = 1.53;
+    this.controls.minDistance = 0.6 * brickHeight;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener('change', changed);
+    this.controls.addEventListener('start', () => (this.flight = null));
+  }
+
+  get distance(): number {
+    return this.camera.position.distanceTo(this.controls.target);
+  }
+
+  get flying(): boolean {
+    return this.flight !== null;
+  }
+
+  resize(aspect: number): void {
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+  }
+
+  private goTo(aim: Aim, cut = false): void {
+    const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
+    this.flight = { from, to: aim, part: cut || this.still ? 1 : 0 };
+    if (this.flight.part === 1) this.advance(0);
+  }
+
+  /** To a place at once. */
+  cut(aim: Aim): void {
+    this.goTo(aim, true);
+  }
+
+  private look(aim: Aim): void {
+    this.camera.position.copy(aim.position);
+    this.controls.target.copy(aim.target);
+    this.fitDepth();
+    this.controls.update();
+  }
+
+  /** Near and far planes for what is seen: depth keeps its precision from a brick's eye to a run of kilometres. */
+  private fitDepth(): void {
+    const farthest = this.distance * 30 + 4 * this.radius();
+    this.camera.near = Math.max(0.002, Math.min(0.02, 0.1 * this.distance), farthest / 60000);
+    this.camera.far = farthest;
+    this.controls.maxDistance = 6 * (this.radius() + this.brickHeight * 8);
+    this.camera.updateProjectionMatrix();
+  }
+
+  private radius(): number {
+    let most = 0;
+    for (const point of this.points) most = Math.max(most, point.length());
+    return most;
+  }
+
+  /** Moves on by `dt` [s]; `front` is where the wave is, null when there is none. */
+  advance(dt: number, front: Vector3 | null = null): boolean {
+    let moved = false;
+    if (this.flight) {
+      const { from, to } = this.flight;
+      this.flight.part = Math.min(1, this.flight.part + dt / kFlight);
+      const s = this.flight.part;
+      const ease = s * s * s * (s * (6 * s - 15) + 10);
+      this.look({ position: from.position.clone().lerp(to.position, ease), target: from.target.clone().lerp(to.target, ease) });
+      if (s === 1) this.flight = null;
+      moved = true;
+    } else if (this.way === 'front' && front) {
+      moved = this.follow(front, dt);
+    }
+    this.fitDepth();
+    return this.controls.update(dt) || moved;
+  }
+
+  private follow(front: Vector3, dt: number): boolean {
+    const gap = front.clone().sub(this.controls.target);
+    if (gap.length() < 1e-5) return false;
+    const jump = gap.length() > 4 * this.distance;
+    gap.multiplyScalar(jump || dt === 0 || this.still ? 1 : 1 - Math.exp(-kFollow * dt));
+    this.controls.target.add(gap);
+    this.camera.position.add(gap);
+    return true;
+  }
+
+  /** All bricks in view. */
+  frameAll(cut = false): void {
+    const top = this.way === 'top';
+    const forward = top ? new Vector3(0, 1e-3, -1) : this.defaultForward();
+    this.goTo(frame(this.points, forward, this.camera, this.insets), cut);
+  }
+
+  defaultForward(): Vector3 {
+    return defaultDirection(this.points);
+  }
+
+  orbit(): void {
+    this.way = 'orbit';
+    this.controls.zoomToCursor = true;
+  }
+
+  top(): void {
+    this.way = 'top';
+    this.frameAll();
+  }
+
+  /** Rides beside the wave, a little ahead of it, looking back at the bricks that fall. */
+  followFront(spot: Spot): void {
+    this.way = 'front';
+    this.controls.zoomToCursor = false;
+    const reach = 9.5 * this.brickHeight;
+    const target = spot.place.clone().setZ(0.35 * this.brickHeight);
+    const ahead = new Vector3(Math.cos(spot.heading), Math.sin(spot.heading), 0);
+    const side = new Vector3(-ahead.y, ahead.x, 0);
+    const from = ahead.multiplyScalar(0.62).addScaledVector(side, this.sideOf(target, side)).setZ(0.42).normalize();
+    this.goTo({ position: target.clone().addScaledVector(from, reach), target });
+  }
+
+  /** The side of a row on which the camera is now, so that it need not cross over. */
+  private sideOf(target: Vector3, side: Vector3): number {
+    return this.camera.position.clone().sub(target).dot(side) >= 0 ? 0.78 : -0.78;
+  }
+
+  /** Low beside a brick, at the height of its eye, looking back along the run at what is coming. */
+  brickEye(spot: Spot): void {
+    this.way = 'eye';
+    const h = this.brickHeight;
+    const ahead = new Vector3(Math.cos(spot.heading), Math.sin(spot.heading), 0);
+    const side = new Vector3(-ahead.y, ahead.x, 0).multiplyScalar(Math.sign(this.sideOf(spot.place, new Vector3(-ahead.y, ahead.x, 0))));
+    const position = spot.place.clone().addScaledVector(ahead, 1.1 * h).addScaledVector(side, 0.95 * h).setZ(0.72 * h);
+    const target = spot.place.clone().addScaledVector(ahead, -2.2 * h).addScaledVector(side, 0.1 * h).setZ(0.45 * h);
+    this.goTo({ position, target });
+  }
+
+  dispose(): void {
+    this.controls.dispose();
+  }
+}

@@ -1,0 +1,238 @@
+/** The 3-D view: one scene, drawn live while anything moves and averaged into a still when nothing does. */
+
+import { HalfFloatType, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
+import type { Playhead } from '../recording/playhead.ts';
+import { extentsOf } from '../recording/pose.ts';
+import type { Recording } from '../recording/types.ts';
+import { BrickMesh } from './bricks.ts';
+import { FinalPass } from './final_pass.ts';
+import { kMoods, Light, type Bounds } from './light.ts';
+import { outlineOf, type Outline } from './outline.ts';
+import { pickBrick } from './pick.ts';
+import { Rig } from './rig.ts';
+import { Still } from './still.ts';
+import { Table } from './table.ts';
+
+export type Theme = 'light' | 'dark';
+
+/** Frames in a finished still, on a graphics card and drawn in software. */
+const kStillFrames = { card: 128, software: 40 };
+/** How long nothing must move before the still begins [s]. */
+const kPatience = 0.25;
+/** Bricks that frame the run: more would not change the picture. */
+const kFramePoints = 3000;
+
+/** True where the page can have a 3-D view. */
+export function hasWebGl(): boolean {
+  try {
+    return document.createElement('canvas').getContext('webgl2') !== null;
+  } catch {
+    return false;
+  }
+}
+
+export class View {
+  readonly rig: Rig;
+  readonly bricks: BrickMesh;
+  /** Averaging may be switched off, for tests and by a person who saves power. */
+  stills = true;
+  /** Drawn by the processor: no graphics card. */
+  readonly software: boolean;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly light: Light;
+  private readonly table: Table;
+  private readonly pass: FinalPass;
+  private readonly still: Still;
+  private readonly live: WebGLRenderTarget;
+  private readonly bounds: Bounds;
+  private readonly brickHeight: number;
+  private dirty = true;
+  private quiet = 0;
+  private share = 0;
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    recording: Recording,
+    private readonly playhead: Playhead,
+    /** Called when the picture will change by itself: a camera was dragged. */
+    wake: () => void,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: 'high-performance' });
+    this.renderer.info.autoReset = false;
+    this.software = isSoftware(this.renderer);
+    this.brickHeight = Math.max(...recording.kinds.map((kind) => kind.height));
+    const points = framePoints(recording, playhead.origin);
+    this.bounds = boundsOf(points);
+    this.rig = new Rig(canvas, points, this.brickHeight, () => {
+      this.dirty = true;
+      wake();
+    });
+    this.light = new Light(this.scene, this.renderer, this.software ? 1024 : 2048);
+    this.light.placeSun(this.rig.defaultForward());
+    this.table = new Table(this.scene);
+    this.bricks = new BrickMesh(recording, playhead);
+    this.scene.add(this.bricks.mesh);
+    this.pass = new FinalPass(this.renderer);
+    this.still = new Still(this.renderer, this.pass);
+    this.live = new WebGLRenderTarget(1, 1, { type: HalfFloatType, samples: this.software ? 0 : 4 });
+  }
+
+  setTheme(theme: Theme): void {
+    this.light.setMood(kMoods[theme]);
+    this.table.setTheme(theme);
+    this.changed();
+  }
+
+  /** @param width, height In CSS pixels. */
+  resize(width: number, height: number, ratio: number): void {
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(ratio, 2));
+    this.renderer.setSize(width, height, false);
+    const size = this.renderer.getDrawingBufferSize(new Vector2());
+    this.live.setSize(size.x, size.y);
+    this.still.resize(size.x, size.y);
+    this.rig.resize(width / height);
+    this.changed();
+  }
+
+  /** Something moved: the next frame is drawn anew. */
+  changed(): void {
+    this.dirty = true;
+  }
+
+  get stillFrames(): number {
+    return this.software ? kStillFrames.software : kStillFrames.card;
+  }
+
+  /** How much of the still is done, 0 to 1. */
+  get stillPart(): number {
+    return Math.min(1, this.still.done / this.stillFrames);
+  }
+
+  /**
+   * Draws what there is to draw.
+   * @param dt Since the last call [s].
+   * @returns Whether it wants to be called again for the next frame.
+   */
+  draw(dt: number, front: Vector3 | null): boolean {
+    if (this.rig.advance(dt, front)) this.dirty = true;
+    if (this.dirty) {
+      this.dirty = false;
+      this.quiet = 0;
+      this.share = 0;
+      this.still.restart();
+      this.drawLive();
+      return true;
+    }
+    if (!this.stills || this.still.done >= this.stillFrames) return false;
+    this.quiet += dt;
+    if (this.quiet < kPatience || !this.still.ready) return true;
+    this.addToStill();
+    this.share = Math.min(1, Math.max(0, (this.still.done - 6) / 14));
+    if (this.share > 0) this.show();
+    return true;
+  }
+
+  private drawLive(): void {
+    this.bricks.update();
+    this.prepare();
+    this.light.useLive();
+    this.light.fit(this.rig.camera, this.bounds, this.brickHeight);
+    this.renderer.shadowMap.needsUpdate = true;
+    this.renderer.setRenderTarget(this.live);
+    this.renderer.render(this.scene, this.rig.camera);
+    this.show();
+  }
+
+  private prepare(): void {
+    const target = this.rig.controls.target;
+    const extent = this.bounds.high.distanceTo(this.bounds.low);
+    this.table.fit(target.x, target.y, this.rig.distance, Math.min(extent, 4 * this.rig.distance));
+    this.rig.camera.updateMatrixWorld();
+  }
+
+  private addToStill(): void {
+    this.prepare();
+    const lens = this.rig.way === 'top' ? 0 : 1;
+    this.still.add(this.rig.camera, this.rig.controls.target, lens, (spread) => {
+      const directions = this.light.useSample(spread);
+      this.light.fit(this.rig.camera, this.bounds, this.brickHeight, directions);
+      this.renderer.shadowMap.needsUpdate = true;
+      this.renderer.render(this.scene, this.rig.camera);
+    });
+  }
+
+  private show(): void {
+    this.pass.show(this.live.texture, this.still.texture, this.share, 1);
+  }
+
+  /** Averages a whole still at once; for pictures. */
+  async finishStill(frames = this.stillFrames): Promise<void> {
+    if (this.dirty) this.draw(0, null);
+    while (this.still.done < frames && !this.dirty) {
+      if (this.still.ready) this.addToStill();
+      await new Promise((resume) => setTimeout(resume, 0));
+    }
+    this.share = this.still.done > 0 ? 1 : 0;
+    this.show();
+  }
+
+  /** The picture as it is now, a PNG. */
+  picture(): Promise<Blob> {
+    this.show();
+    return new Promise((resolve, reject) =>
+      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser made no picture.'))), 'image/png'),
+    );
+  }
+
+  /** @param x, y In CSS pixels from the view's upper left corner. @returns A brick or -1. */
+  pick(x: number, y: number): number {
+    const caster = new Raycaster();
+    const { clientWidth, clientHeight } = this.canvas;
+    caster.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.rig.camera);
+    return pickBrick(this.playhead, caster.ray);
+  }
+
+  /** A brick's outline in the picture, in CSS pixels; null if it is out of sight. */
+  outline(brick: number): Outline | null {
+    this.rig.camera.updateMatrixWorld();
+    return outlineOf(this.playhead, brick, this.rig.camera, this.canvas.clientWidth, this.canvas.clientHeight);
+  }
+
+  dispose(): void {
+    this.rig.dispose();
+    this.bricks.dispose();
+    this.still.dispose();
+    this.live.dispose();
+    this.renderer.dispose();
+  }
+}
+
+function isSoftware(renderer: WebGLRenderer): boolean {
+  const gl = renderer.getContext();
+  const names = gl.getExtension('WEBGL_debug_renderer_info');
+  const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
+function framePoints(recording: Recording, origin: readonly number[]): Vector3[] {
+  const { bricks } = recording;
+  const step = Math.max(1, Math.floor(bricks.count / kFramePoints));
+  const points: Vector3[] = [];
+  const add = (brick: number): void => {
+    const [x, y, z] = [0, 1, 2].map((axis) => bricks.foot[3 * brick + axis] - origin[axis]);
+    points.push(new Vector3(x, y, z), new Vector3(x, y, z + extentsOf(recording, brick).up));
+  };
+  for (let brick = 0; brick < bricks.count; brick += step) add(brick);
+  add(bricks.count - 1);
+  return points;
+}
+
+function boundsOf(points: readonly Vector3[]): Bounds {
+  const bounds = { low: new Vector3(Infinity, Infinity, Infinity), high: new Vector3(-Infinity, -Infinity, -Infinity) };
+  for (const point of points) {
+    bounds.low.min(point);
+    bounds.high.max(point);
+  }
+  return bounds;
+}

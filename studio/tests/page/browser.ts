@@ -1,0 +1,72 @@
+/** A browser, a small static server for the built page, and recordings to play: what every page test stands on. */
+
+import { execFile } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { mkdir, mkdtemp, readFile, rm } from 'node:fs/promises';
+import { createServer, type Server } from 'node:http';
+import { tmpdir } from 'node:os';
+import { extname, join, normalize } from 'node:path';
+import { promisify } from 'node:util';
+import { chromium, type Browser } from 'playwright-core';
+import { makeRecording } from '../make_recording.ts';
+
+const kHere = new URL('.', import.meta.url).pathname;
+const kDist = join(kHere, '../../dist');
+export const kOut = join(kHere, '../out');
+
+const kTypes: Record<string, string> = {
+  '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.json': 'application/json',
+};
+
+export interface Site {
+  url: string;
+  close(): Promise<void>;
+}
+
+/** Serves dist at / and `recording` at /recording.topple, on loopback; null: there is no recording. */
+export async function serve(recording: Uint8Array | null, summary: object | null = null): Promise<Site> {
+  const server: Server = createServer((request, response) => {
+    const path = normalize(new URL(request.url ?? '/', 'http://localhost').pathname);
+    if (path === '/recording.topple' && recording) return response.writeHead(200, { 'content-length': recording.length }).end(recording);
+    if (path === '/summary.json' && summary) return response.writeHead(200).end(JSON.stringify(summary));
+    const file = join(kDist, path === '/' ? 'index.html' : path);
+    readFile(file).then(
+      (bytes) => response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream' }).end(bytes),
+      () => response.writeHead(path === '/summary.json' || path === '/recording.topple' ? 204 : 404).end(),
+    );
+  });
+  await new Promise<void>((ready) => server.listen(0, '127.0.0.1', ready));
+  const address = server.address();
+  const port = typeof address === 'object' && address ? address.port : 0;
+  return {
+    url: `http://127.0.0.1:${port}/`,
+    close: () => new Promise((done) => { server.closeAllConnections?.(); server.close(() => done()); }),
+  };
+}
+
+/** Debian's Chromium (or TOPPLE_CHROMIUM), drawing in software. */
+export function launch(webGl = true): Promise<Browser> {
+  const flags = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio'];
+  const drawing = webGl ? ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-3d-apis', '--disable-webgl', '--disable-webgl2'];
+  return chromium.launch({ executablePath: process.env.TOPPLE_CHROMIUM ?? '/usr/bin/chromium', args: [...flags, ...drawing] });
+}
+
+/**
+ * A recording to test with: made by the program of this tree (or TOPPLE_PROGRAM) from a layout, or made up where there is no program.
+ * @param layout TOML, or the path of a scene from the repository's root.
+ */
+export async function recordingOf(layout: string, instead: () => Uint8Array): Promise<{ bytes: Uint8Array; real: boolean }> {
+  const root = join(kHere, '../../..');
+  const program = process.env.TOPPLE_PROGRAM ?? join(root, 'build/release/topple');
+  if (!existsSync(program) || !existsSync(join(root, layout))) return { bytes: instead(), real: false };
+  const folder = await mkdtemp(join(tmpdir(), 'topple-page-'));
+  try {
+    const file = join(folder, 'run.topple');
+    await promisify(execFile)(program, ['run', join(root, layout), '--out', file]);
+    return { bytes: new Uint8Array(await readFile(file)), real: true };
+  } finally {
+    await rm(folder, { recursive: true, force: true });
+  }
+}
+
+export { makeRecording, mkdir };
