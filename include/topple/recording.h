@@ -56,9 +56,9 @@ struct FreeKnot {
 /// One piece of a brick's motion; a brick that is woken again, or moves for long, has several.
 struct Track {
   BrickId brick = kNoBrick;
-  double start = 0.0;                  ///< [s]
-  std::span<const HingedKnot> hinged;  ///< One of the two is empty.
-  std::span<const FreeKnot> free;
+  double start = 0.0;              ///< [s]
+  std::vector<HingedKnot> hinged;  ///< One of the two is empty.
+  std::vector<FreeKnot> free;
 };
 
 struct EnergySample {

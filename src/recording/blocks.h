@@ -52,7 +52,7 @@ class Runs {
   std::size_t bytes() const { return total_ * sizeof(T) + blocks_.size() * sizeof(void*); }
 
  private:
-  static constexpr std::size_t kBlock = 4096;
+  static constexpr std::size_t kBlock = 65536;
   std::vector<std::unique_ptr<T[]>> blocks_;
   std::size_t capacity_ = 0;
   std::size_t used_ = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "recording/hermite.h"
+#include "recording/knot_code.h"
 
 namespace topple {
 namespace {
@@ -11,7 +12,7 @@ constexpr std::size_t kFirstTest = 8;
 constexpr std::size_t kMostSamples = 512;  // A buffer's end: longer segments gain nothing.
 // A piece ends after so many knots, and after so long that a float's time is still far finer than the tolerance.
 constexpr std::size_t kMostKnots = 240;
-constexpr double kLongestPiece = 4.0;  // [s]
+constexpr double kLongestPiece = 3.0;  // [s]
 // Smaller jumps than these fractions of the largest rate and acceleration do not show in a plot.
 constexpr float kRateJump = 0.02F;
 constexpr float kAccelerationJump = 0.25F;
@@ -52,13 +53,14 @@ float worst_miss(const Quintic& curve, double span, const float* time, const flo
 void HingedFit::open(BrickId brick, double time, const HingedState& state, double tolerance) {
   brick_ = brick;
   tolerance_ = static_cast<float>(tolerance) * kMargin;
+  round_ = tolerance >= KnotSteps::kFinestTolerance;
   start_ = time;
   count_ = good_ = 0;
   next_test_ = kFirstTest;
   top_rate_ = top_acceleration_ = 0.0F;
   knots_.clear();
   kinks_.clear();
-  push_knot({0.0F, static_cast<float>(state.angle), static_cast<float>(state.rate), static_cast<float>(state.acceleration)});
+  push_knot(knot(0.0, state));
 }
 
 void HingedFit::push_knot(const HingedKnot& knot) {
@@ -90,8 +92,16 @@ bool HingedFit::at(double time) const {
 }
 
 HingedKnot HingedFit::knot_at(std::size_t index) const {
-  return {static_cast<float>(base_time_ + double{time_[index]}), static_cast<float>(base_angle_ + double{angle_[index]}), rate_[index],
-          acceleration_[index]};
+  return knot(base_time_ + double{time_[index]}, {base_angle_ + double{angle_[index]}, double{rate_[index]}, double{acceleration_[index]}});
+}
+
+HingedKnot HingedFit::knot(double time, const HingedState& state) const {
+  if (!round_) {
+    return {static_cast<float>(time), static_cast<float>(state.angle), static_cast<float>(state.rate), static_cast<float>(state.acceleration)};
+  }
+  return {static_cast<float>(rounded(time, KnotSteps::kTime)), static_cast<float>(rounded(state.angle, KnotSteps::kAngle)),
+          static_cast<float>(rounded(state.rate, KnotSteps::kRate)),
+          static_cast<float>(rounded(state.acceleration, KnotSteps::kAcceleration))};
 }
 
 bool HingedFit::fits(std::size_t count) const {
@@ -142,7 +152,11 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
   for (const PendingKink& kink : kinks_) {
     if (kink.index > index) break;
     ++passed;
-    if (kink.index == index) push_knot({knots_.back().time, knots_.back().angle, kink.rate, kink.acceleration});
+    if (kink.index != index) continue;
+    HingedKnot after = knot(0.0, {0.0, double{kink.rate}, double{kink.acceleration}});
+    after.time = knots_.back().time;
+    after.angle = knots_.back().angle;
+    push_knot(after);
   }
   kinks_.erase(kinks_.begin(), kinks_.begin() + static_cast<std::ptrdiff_t>(passed));
   for (PendingKink& kink : kinks_) kink.index -= count;

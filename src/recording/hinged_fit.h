@@ -30,6 +30,7 @@ class HingedFit {
  private:
   void append(double time, const HingedState& state);
   bool fits(std::size_t count) const;
+  HingedKnot knot(double time, const HingedState& state) const;
   HingedKnot knot_at(std::size_t index) const;
   std::size_t longest(std::size_t good, std::size_t bad) const;
   void stretch(TrackStore& out);
@@ -47,6 +48,7 @@ class HingedFit {
 
   BrickId brick_ = kNoBrick;
   float tolerance_ = 0.0F;
+  bool round_ = true;              // Knots are multiples of KnotSteps.
   double start_ = 0.0;             // Of this piece [s].
   double base_time_ = 0.0;         // Of the last knot, since the start, as the knot has it [s].
   double base_angle_ = 0.0;        // Of the last knot, as it has it [rad].

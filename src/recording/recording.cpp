@@ -14,8 +14,8 @@ namespace {
 constexpr double kUprightTilt = 0.0174532925199433;
 
 Vec3 turned(const Vec3& v, double heading) {
-  const auto [s, c] = sin_cos(heading);
-  return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+  const SinCos turn = sin_cos(heading);
+  return {turn.cos * v.x - turn.sin * v.y, turn.sin * v.x + turn.cos * v.y, v.z};
 }
 
 // Turning about the toe or heel, an axis that points to the brick's left, moves the centre of mass.
@@ -119,7 +119,7 @@ void Recording::tracks_of(BrickId brick, std::vector<Track>& out) const {
 BrickState Recording::at(BrickId brick, double time) const {
   const TrackStore& tracks = store_->tracks;
   std::int32_t piece = tracks.last_of(brick);
-  while (piece != TrackStore::kNone && tracks.track(static_cast<std::size_t>(piece)).start > time) piece = tracks.before(piece);
+  while (piece != TrackStore::kNone && tracks.start_of(piece) > time) piece = tracks.before(piece);
   if (piece == TrackStore::kNone) {
     BrickState state;
     state.pose = standing_pose(store_->layout, brick);
@@ -127,7 +127,7 @@ BrickState Recording::at(BrickId brick, double time) const {
   }
   const Track track = tracks.track(static_cast<std::size_t>(piece));
   BrickState state = state_in(store_->layout, track, time);
-  state.phase = time < tracks.end_of(static_cast<std::size_t>(piece)) ? Phase::falling : phase_after(track, state.hinge.angle);
+  state.phase = time < end_of(track) ? Phase::falling : phase_after(track, state.hinge.angle);
   if (state.phase != Phase::falling) {
     state.velocity = state.angular_velocity = {};
     state.hinge.rate = state.hinge.acceleration = 0.0;

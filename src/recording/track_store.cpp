@@ -1,36 +1,47 @@
 #include "recording/track_store.h"
 
+#include "recording/knot_code.h"
+
 namespace topple {
-void TrackStore::link(Piece piece) {
-  std::int32_t& last = last_[static_cast<std::size_t>(piece.brick)];
-  piece.previous = last;
-  last = static_cast<std::int32_t>(pieces_.size());
-  pieces_.push_back(piece);
+
+void TrackStore::keep(BrickId brick, double start) {
+  std::int32_t& last = last_[static_cast<std::size_t>(brick)];
+  pieces_.push_back({start, codes_.append(code_), brick, last});
+  last = static_cast<std::int32_t>(pieces_.size()) - 1;
 }
 
 void TrackStore::add(BrickId brick, double start, std::span<const HingedKnot> knots) {
   if (knots.empty()) return;
-  link({start, hinged_.append(knots), brick, static_cast<std::int32_t>(knots.size()), kNone, knots.back().time});
+  code_.clear();
+  encode(knots, code_);
+  keep(brick, start);
 }
 
 void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knots) {
   if (knots.empty()) return;
-  link({start, free_.append(knots), brick, -static_cast<std::int32_t>(knots.size()), kNone, knots.back().time});
+  code_.clear();
+  encode(knots, code_);
+  keep(brick, start);
 }
 
 Track TrackStore::track(std::size_t index) const {
-  const Piece& piece = pieces_[index];
-  Track track{piece.brick, piece.start, {}, {}};
-  if (piece.count < 0) {
-    track.free = {static_cast<const FreeKnot*>(piece.knots), static_cast<std::size_t>(-piece.count)};
-  } else {
-    track.hinged = {static_cast<const HingedKnot*>(piece.knots), static_cast<std::size_t>(piece.count)};
-  }
+  Track track;
+  read(index, track);
   return track;
 }
 
-double TrackStore::end_of(std::size_t index) const { return pieces_[index].start + double{pieces_[index].duration}; }
+void TrackStore::read(std::size_t index, Track& out) const {
+  const Piece& piece = pieces_[index];
+  out.brick = piece.brick;
+  out.start = piece.start;
+  decode(piece.code, out.hinged, out.free);
+}
 
-std::size_t TrackStore::bytes() const { return pieces_.bytes() + hinged_.bytes() + free_.bytes() + last_.capacity() * sizeof(last_[0]); }
+std::size_t TrackStore::bytes() const { return pieces_.bytes() + codes_.bytes() + last_.capacity() * sizeof(last_[0]); }
+
+double end_of(const Track& track) {
+  if (!track.hinged.empty()) return track.start + double{track.hinged.back().time};
+  return track.free.empty() ? track.start : track.start + double{track.free.back().time};
+}
 
 }  // namespace topple

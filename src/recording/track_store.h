@@ -15,7 +15,8 @@ class TrackStore {
 
   std::size_t size() const { return pieces_.size(); }
   Track track(std::size_t index) const;
-  double end_of(std::size_t index) const;  ///< Time of its last knot [s].
+  void read(std::size_t index, Track& out) const;  ///< The same into buffers that are there already.
+  double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
 
   /// The last piece of a brick, and the piece of the same brick before this one; kNone if there is none.
   static constexpr std::int32_t kNone = -1;
@@ -27,18 +28,19 @@ class TrackStore {
  private:
   struct Piece {
     double start;
-    const void* knots;
+    const std::uint8_t* code;
     BrickId brick;
-    std::int32_t count;  // Less than 0: so many free knots.
     std::int32_t previous;
-    float duration;
   };
-  void link(Piece piece);
+  void keep(BrickId brick, double start);
 
   Blocks<Piece> pieces_;
-  Runs<HingedKnot> hinged_;
-  Runs<FreeKnot> free_;
+  Runs<std::uint8_t> codes_;
   std::vector<std::int32_t> last_;
+  std::vector<std::uint8_t> code_;  // Of the piece that is being added.
 };
+
+/// The moment of a track's last knot [s].
+double end_of(const Track& track);
 
 }  // namespace topple

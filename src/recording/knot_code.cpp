@@ -1,0 +1,121 @@
+#include "recording/knot_code.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace topple {
+namespace {
+
+enum class Way : std::uint8_t { rounded, floats, free };
+
+/// A knot in steps.
+struct Whole {
+  std::int32_t time = 0, angle = 0, rate = 0, acceleration = 0;
+};
+
+bool to_steps(float value, double step, std::int32_t& steps) {
+  const double exact = double{value} / step;
+  if (!(std::abs(exact) < 0x1p24)) return false;
+  steps = static_cast<std::int32_t>(exact);
+  return static_cast<double>(steps) == exact;
+}
+
+bool to_whole(const HingedKnot& knot, Whole& whole) {
+  return to_steps(knot.time, KnotSteps::kTime, whole.time) && to_steps(knot.angle, KnotSteps::kAngle, whole.angle) &&
+         to_steps(knot.rate, KnotSteps::kRate, whole.rate) && to_steps(knot.acceleration, KnotSteps::kAcceleration, whole.acceleration);
+}
+
+HingedKnot to_knot(const Whole& whole) {
+  return {static_cast<float>(whole.time * KnotSteps::kTime), static_cast<float>(whole.angle * KnotSteps::kAngle),
+          static_cast<float>(whole.rate * KnotSteps::kRate), static_cast<float>(whole.acceleration * KnotSteps::kAcceleration)};
+}
+
+// Seven bits a byte, the lowest first; the eighth says that more follow. The sign is the lowest bit.
+void put(std::vector<std::uint8_t>& out, std::uint32_t value) {
+  while (value >= 128) {
+    out.push_back(static_cast<std::uint8_t>(value | 128U));
+    value >>= 7;
+  }
+  out.push_back(static_cast<std::uint8_t>(value));
+}
+void put_signed(std::vector<std::uint8_t>& out, std::int32_t value) {
+  put(out, (static_cast<std::uint32_t>(value) << 1) ^ static_cast<std::uint32_t>(value >> 31));
+}
+
+std::uint32_t get(const std::uint8_t*& code) {
+  std::uint32_t value = 0;
+  for (unsigned shift = 0;; shift += 7) {
+    const std::uint8_t byte = *code++;
+    value |= (byte & 127U) << shift;
+    if (byte < 128) return value;
+  }
+}
+std::int32_t get_signed(const std::uint8_t*& code) {
+  const std::uint32_t value = get(code);
+  return static_cast<std::int32_t>(value >> 1) ^ -static_cast<std::int32_t>(value & 1U);
+}
+
+template <typename Knot>
+void put_floats(std::span<const Knot> knots, std::vector<std::uint8_t>& out) {
+  const std::size_t at = out.size();
+  out.resize(at + knots.size_bytes());
+  std::memcpy(out.data() + at, knots.data(), knots.size_bytes());
+}
+
+void head(std::vector<std::uint8_t>& out, std::size_t count, Way way) {
+  put(out, static_cast<std::uint32_t>(count));
+  out.push_back(static_cast<std::uint8_t>(way));
+}
+
+}  // namespace
+
+void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out) {
+  const std::size_t start = out.size();
+  head(out, knots.size(), Way::rounded);
+  Whole last;
+  for (const HingedKnot& knot : knots) {
+    Whole now;
+    if (!to_whole(knot, now)) {
+      out.resize(start);
+      head(out, knots.size(), Way::floats);
+      return put_floats(knots, out);
+    }
+    put_signed(out, now.time - last.time);
+    put_signed(out, now.angle - last.angle);
+    put_signed(out, now.rate);
+    put_signed(out, now.acceleration - last.acceleration);
+    last = now;
+  }
+}
+
+void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) {
+  head(out, knots.size(), Way::free);
+  put_floats(knots, out);
+}
+
+void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
+  hinged.clear();
+  free.clear();
+  const std::size_t count = get(code);
+  const auto way = static_cast<Way>(*code++);
+  if (way == Way::free) {
+    free.resize(count);
+    std::memcpy(free.data(), code, count * sizeof(FreeKnot));
+    return;
+  }
+  hinged.resize(count);
+  if (way == Way::floats) {
+    std::memcpy(hinged.data(), code, count * sizeof(HingedKnot));
+    return;
+  }
+  Whole whole;
+  for (HingedKnot& knot : hinged) {
+    whole.time += get_signed(code);
+    whole.angle += get_signed(code);
+    whole.rate = get_signed(code);
+    whole.acceleration += get_signed(code);
+    knot = to_knot(whole);
+  }
+}
+
+}  // namespace topple

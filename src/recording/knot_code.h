@@ -1,0 +1,36 @@
+/// How knots are kept in memory: hinged ones as whole multiples of a small step each, the differences from knot to knot in as few bytes
+/// as they need. A million bricks have some thirty million knots; as floats alone they would take half a gigabyte.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "topple/recording.h"
+
+namespace topple {
+
+/// The steps of a rounded knot, powers of two so that a float has each multiple exactly. At the default tolerance they are a thousandth
+/// of what a knot may be off; finer tolerances keep their floats as they are.
+struct KnotSteps {
+  static constexpr double kTime = 0x1p-22;         ///< [s]
+  static constexpr double kAngle = 0x1p-21;        ///< [rad]
+  static constexpr double kRate = 0x1p-9;          ///< [rad/s]
+  static constexpr double kAcceleration = 0x1p-4;  ///< [rad/s^2]
+  static constexpr double kFinestTolerance = 1e-4;  ///< Of an angle [rad].
+};
+
+/// The nearest multiple of `step`, a power of two; for |value| < 2^51 steps.
+inline double rounded(double value, double step) {
+  constexpr double kShift = 0x1.8p52;  // Adding and subtracting it drops the digits behind the point.
+  return (value / step + kShift - kShift) * step;
+}
+
+/// Appends the code of a track's knots. Exact: knots that are not multiples of the steps are kept as floats.
+void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out);
+void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out);
+
+/// What encode() made.
+void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free);
+
+}  // namespace topple

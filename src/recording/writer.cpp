@@ -1,0 +1,262 @@
+#include <algorithm>
+
+#include "recording/crc32.h"
+#include "recording/format.h"
+#include "recording/store.h"
+
+namespace topple {
+
+namespace format {
+
+void Sink::begin(std::string_view type) {
+  bytes_.insert(bytes_.end(), type.begin(), type.end());
+  bytes_.resize(bytes_.size() + kHeader - type.size());
+  payload_ = bytes_.size();
+}
+
+void Sink::end() {
+  const std::uint64_t length = bytes_.size() - payload_;
+  const std::uint32_t check = crc32(std::span(bytes_).subspan(payload_));
+  std::memcpy(bytes_.data() + payload_ - 12, &check, sizeof check);
+  std::memcpy(bytes_.data() + payload_ - 8, &length, sizeof length);
+  align();
+}
+
+}  // namespace format
+
+namespace {
+
+using format::Sink;
+
+// So much in one call of more(), or a long run's end would double the memory it took.
+constexpr std::int64_t kTracksAtOnce = 8192;
+constexpr std::int64_t kEventsAtOnce = 32768;
+
+std::uint32_t code_of(BrickId brick) { return brick == kNoBrick ? format::kNoBrickCode : static_cast<std::uint32_t>(brick); }
+
+// One array: `value` of every item, from a multiple of 8 on.
+template <typename Items, typename Value>
+void column(Sink& sink, const Items& items, Value value) {
+  sink.align();
+  for (const auto& item : items) sink.put(value(item));
+}
+
+void write_recipe(Sink& sink, const Layout& layout, const Recipe& recipe) {
+  sink.begin(format::kRecipe);
+  sink.text(recipe.version);
+  sink.text(recipe.model);
+  sink.text(layout.name);
+  sink.text(layout.text);
+  sink.put(recipe.time_step);
+  sink.put(static_cast<std::uint32_t>(layout.overrides.size()));
+  for (const std::string& entry : layout.overrides) sink.text(entry);
+  sink.end();
+}
+
+void write_color(Sink& sink, const Color& color) {
+  sink.put(color.red);
+  sink.put(color.green);
+  sink.put(color.blue);
+}
+
+void write_kind(Sink& sink, const BrickKind& kind) {
+  sink.text(kind.name);
+  const Surface& s = kind.surface;
+  for (const double value : {kind.height, kind.width, kind.thickness, kind.mass, s.brick_friction, s.floor_friction, s.brick_restitution,
+                             s.floor_restitution}) {
+    sink.put(value);
+  }
+  write_color(sink, kind.color);
+}
+
+struct PushNumbers {
+  std::uint8_t way;
+  double value, height, duration;
+};
+PushNumbers numbers_of(const AngularSpeedPush& push) { return {0, push.angular_speed, 0.0, 0.0}; }
+PushNumbers numbers_of(const ForcePush& push) { return {1, push.force, push.height, push.duration}; }
+PushNumbers numbers_of(const ImpulsePush& push) { return {2, push.impulse, push.height, 0.0}; }
+
+void write_push(Sink& sink, const Push& push) {
+  const PushNumbers numbers = std::visit([](const auto& how) { return numbers_of(how); }, push.how);
+  sink.put(code_of(push.brick));
+  sink.put(push.at);
+  sink.put(numbers.way);
+  sink.put(numbers.value);
+  sink.put(numbers.height);
+  sink.put(numbers.duration);
+}
+
+void write_scene(Sink& sink, const Layout& layout, double tolerance) {
+  sink.begin(format::kScene);
+  sink.text(layout.title);
+  sink.put(layout.gravity);
+  sink.put(tolerance);
+  sink.put(static_cast<std::uint32_t>(layout.kinds.size()));
+  for (const BrickKind& kind : layout.kinds) write_kind(sink, kind);
+  sink.put(static_cast<std::uint32_t>(layout.colors.size()));
+  for (const Color& color : layout.colors) write_color(sink, color);
+  sink.put(static_cast<std::uint32_t>(layout.parts.size()));
+  for (const Part& part : layout.parts) {
+    sink.text(part.name);
+    sink.put(static_cast<std::uint32_t>(part.first));
+    sink.put(static_cast<std::uint32_t>(part.count));
+  }
+  sink.put(static_cast<std::uint32_t>(layout.pushes.size()));
+  for (const Push& push : layout.pushes) write_push(sink, push);
+  sink.end();
+}
+
+void write_bricks(Sink& sink, std::size_t first, std::span<const Brick> bricks) {
+  sink.begin(format::kBricks);
+  sink.put(static_cast<std::uint32_t>(first));
+  sink.put(static_cast<std::uint32_t>(bricks.size()));
+  column(sink, bricks, [](const Brick& b) { return b.foot.x; });
+  column(sink, bricks, [](const Brick& b) { return b.foot.y; });
+  column(sink, bricks, [](const Brick& b) { return b.foot.z; });
+  column(sink, bricks, [](const Brick& b) { return b.heading; });
+  column(sink, bricks, [](const Brick& b) { return b.kind; });
+  column(sink, bricks, [](const Brick& b) { return b.color; });
+  column(sink, bricks, [](const Brick& b) { return static_cast<std::uint8_t>(b.stance); });
+  sink.end();
+}
+
+template <typename Knots>
+void write_track_heads(Sink& sink, std::span<const Track> tracks, Knots knots_of) {
+  std::size_t knots = 0;
+  for (const Track& track : tracks) knots += knots_of(track).size();
+  sink.put(static_cast<std::uint32_t>(tracks.size()));
+  sink.put(static_cast<std::uint32_t>(knots));
+  column(sink, tracks, [](const Track& t) { return t.start; });
+  column(sink, tracks, [](const Track& t) { return static_cast<std::uint32_t>(t.brick); });
+  column(sink, tracks, [&](const Track& t) { return static_cast<std::uint32_t>(knots_of(t).size()); });
+}
+
+template <typename Knot, typename Knots>
+void knot_column(Sink& sink, std::span<const Track> tracks, Knots knots_of, float Knot::*number) {
+  sink.align();
+  for (const Track& track : tracks) {
+    for (const Knot& knot : knots_of(track)) sink.put(knot.*number);
+  }
+}
+
+void write_hinged(Sink& sink, std::span<const Track> tracks) {
+  const auto knots_of = [](const Track& t) { return std::span(t.hinged); };
+  sink.begin(format::kHinged);
+  write_track_heads(sink, tracks, knots_of);
+  for (const auto number : {&HingedKnot::time, &HingedKnot::angle, &HingedKnot::rate, &HingedKnot::acceleration}) {
+    knot_column<HingedKnot>(sink, tracks, knots_of, number);
+  }
+  sink.end();
+}
+
+void write_free(Sink& sink, std::span<const Track> tracks) {
+  const auto knots_of = [](const Track& t) { return std::span(t.free); };
+  sink.begin(format::kFree);
+  write_track_heads(sink, tracks, knots_of);
+  for (const auto number : {&FreeKnot::time, &FreeKnot::x, &FreeKnot::y, &FreeKnot::z, &FreeKnot::qw, &FreeKnot::qx, &FreeKnot::qy,
+                            &FreeKnot::qz, &FreeKnot::vx, &FreeKnot::vy, &FreeKnot::vz, &FreeKnot::wx, &FreeKnot::wy, &FreeKnot::wz}) {
+    knot_column<FreeKnot>(sink, tracks, knots_of, number);
+  }
+  sink.end();
+}
+
+void write_events(Sink& sink, std::span<const EventStore::Entry> events) {
+  using Entry = EventStore::Entry;
+  sink.begin(format::kEvents);
+  sink.put(static_cast<std::uint32_t>(events.size()));
+  sink.put(std::uint32_t{0});
+  column(sink, events, [](const Entry& e) { return e.time; });
+  column(sink, events, [](const Entry& e) { return code_of(e.brick); });
+  column(sink, events, [](const Entry& e) { return code_of(e.by); });
+  column(sink, events, [](const Entry& e) { return static_cast<std::uint8_t>(e.kind); });
+  column(sink, events, [](const Entry& e) { return e.load.force; });
+  column(sink, events, [](const Entry& e) { return e.load.impulse; });
+  column(sink, events, [](const Entry& e) { return e.load.x; });
+  column(sink, events, [](const Entry& e) { return e.load.y; });
+  column(sink, events, [](const Entry& e) { return e.load.z; });
+  sink.end();
+}
+
+void write_energy(Sink& sink, std::span<const EnergySample> samples) {
+  sink.begin(format::kEnergy);
+  sink.put(static_cast<std::uint32_t>(samples.size()));
+  sink.put(std::uint32_t{0});
+  column(sink, samples, [](const EnergySample& s) { return s.time; });
+  column(sink, samples, [](const EnergySample& s) { return s.energy.kinetic; });
+  column(sink, samples, [](const EnergySample& s) { return s.energy.potential; });
+  column(sink, samples, [](const EnergySample& s) { return s.energy.push_work; });
+  sink.end();
+}
+
+void write_hashes(Sink& sink, const HashTrail& trail) {
+  sink.begin(format::kHashes);
+  sink.put(static_cast<std::uint64_t>(trail.stride));
+  sink.put(static_cast<std::uint64_t>(trail.values.size()));
+  for (const std::uint64_t value : trail.values) sink.put(value);
+  sink.end();
+}
+
+void write_end(Sink& sink, const RunEnd& end) {
+  sink.begin(format::kEnd);
+  sink.put(static_cast<std::uint32_t>(end.reason));
+  sink.put(code_of(end.brick));
+  sink.put(static_cast<std::uint64_t>(end.step));
+  sink.put(end.time);
+  sink.put(end.hash);
+  sink.text(end.words);
+  sink.end();
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const Recording& recording) : store_(recording.store_.get()) {}
+
+std::vector<std::uint8_t> RecordingWriter::begin() {
+  const Layout& layout = store_->layout;
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(layout.bricks.size() * 38 + layout.text.size() + 4096);
+  bytes.insert(bytes.end(), format::kMagic.begin(), format::kMagic.end());
+  Sink sink(bytes);
+  write_recipe(sink, layout, store_->recipe);
+  write_scene(sink, layout, store_->tolerance);
+  const std::span<const Brick> bricks = layout.bricks;
+  for (std::size_t first = 0; first < bricks.size(); first += format::kBricksInPiece) {
+    write_bricks(sink, first, bricks.subspan(first, std::min(format::kBricksInPiece, bricks.size() - first)));
+  }
+  return bytes;
+}
+
+std::vector<std::uint8_t> RecordingWriter::more() {
+  std::vector<std::uint8_t> bytes;
+  Sink sink(bytes);
+  std::vector<Track> hinged;
+  std::vector<Track> free;
+  const auto tracks = static_cast<std::int64_t>(store_->tracks.size());
+  for (const std::int64_t last = std::min(tracks, tracks_ + kTracksAtOnce); tracks_ < last; ++tracks_) {
+    Track track = store_->tracks.track(static_cast<std::size_t>(tracks_));
+    (track.free.empty() ? hinged : free).push_back(std::move(track));
+  }
+  if (!hinged.empty()) write_hinged(sink, hinged);
+  if (!free.empty()) write_free(sink, free);
+
+  std::vector<EventStore::Entry> events;
+  const auto all = static_cast<std::int64_t>(store_->events.size());
+  for (const std::int64_t last = std::min(all, events_ + kEventsAtOnce); events_ < last; ++events_) {
+    events.push_back(store_->events.entry(static_cast<std::size_t>(events_)));
+  }
+  if (!events.empty()) write_events(sink, events);
+  return bytes;
+}
+
+std::vector<std::uint8_t> RecordingWriter::end() {
+  std::vector<std::uint8_t> bytes;
+  for (std::vector<std::uint8_t> rest = more(); !rest.empty(); rest = more()) bytes.insert(bytes.end(), rest.begin(), rest.end());
+  Sink sink(bytes);
+  write_energy(sink, store_->energy);
+  write_hashes(sink, store_->hashes);
+  write_end(sink, store_->end);
+  return bytes;
+}
+
+}  // namespace topple
