@@ -76,8 +76,11 @@ Result<Node> parse_document(std::string_view text, std::string_view name) {
   if (parsed) return Node{table_of(parsed.table()), {1, 1, -1}};
   const toml::parse_error& error = parsed.error();
   const toml::source_position at = error.source().begin;
+  std::string_view why = error.description();
+  constexpr std::string_view kEmpty = "Error ";  // "Error while parsing string: ..."
+  if (why.starts_with(kEmpty)) why.remove_prefix(kEmpty.size());
   return failure(std::string(name) + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) +
-                 ": not TOML: " + printable(error.description(), 300));
+                 ": not TOML: " + printable(why, 300));
 }
 
 Node parse_value(std::string_view text, const Place& place) {

@@ -61,7 +61,8 @@ std::optional<double> read_pitch(Section& section, const PartPlan& plan, std::sp
 std::optional<std::int64_t> count_along(Section& section, std::string_view key, double length, double pitch) {
   const double pitches = std::floor(length / pitch + kSnap);
   if (pitches < static_cast<double>(kMaxBricks)) return static_cast<std::int64_t>(pitches) + 1;
-  section.problem(key, "would take " + number_text(pitches + 1.0) + " bricks; at most " + count_text(kMaxBricks) + " are allowed");
+  section.problem(
+      key, "would take " + count_text(static_cast<long long>(pitches) + 1) + " bricks; at most " + count_text(kMaxBricks) + " are allowed");
   return std::nullopt;
 }
 

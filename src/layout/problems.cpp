@@ -40,12 +40,14 @@ Error Problems::error() const {
   const auto order = [](const Problem* problem) {
     const Place& at = problem->place;
     const bool in_file = at.override_index < 0;
-    return std::tuple(at.override_index, in_file ? at.line : 0U, in_file ? at.column : 0U);
+    return std::tuple(at.override_index, in_file ? at.line : 0U, in_file ? at.column : 0U, problem);  // else as they were found
   };
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const Problem* a, const Problem* b) { return order(a) < order(b); });
+  std::sort(sorted.begin(), sorted.end(), [&](const Problem* a, const Problem* b) { return order(a) < order(b); });
   Error error;
   for (std::size_t i = 0; i < std::min(sorted.size(), kListed); ++i) error.message += (i == 0 ? "" : "\n") + sorted[i]->line;
-  if (count_ > kListed) error.message += (counted_all_ ? "\nand " : "\nand at least ") + count_text(static_cast<long long>(count_ - kListed)) + " more problems";
+  if (count_ > kListed)
+    error.message +=
+        (counted_all_ ? "\nand " : "\nand at least ") + count_text(static_cast<long long>(count_ - kListed)) + " more problems";
   return error;
 }
 

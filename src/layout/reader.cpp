@@ -1,5 +1,6 @@
 // From text to a layout: the file is understood section by section, every problem is kept, and bricks are put down only when all is well.
 #include <algorithm>
+#include <tuple>
 
 #include "base/random.h"
 #include "base/trigonometry.h"
@@ -14,9 +15,9 @@
 namespace topple {
 namespace {
 
-constexpr Range kGravity{0.0, 1000.0, true};        // [m/s^2]
-constexpr Range kPlaceNoise{0.0, 1000.0};           // [mm]
-constexpr Range kHeadingNoise{0.0, 180.0};          // [deg]
+constexpr Range kGravity{0.0, 1000.0, true};  // [m/s^2]
+constexpr Range kPlaceNoise{0.0, 1000.0};     // [mm]
+constexpr Range kHeadingNoise{0.0, 180.0};    // [deg]
 
 struct NoisePlan {
   std::uint64_t seed = 1;
@@ -59,8 +60,8 @@ class Reader {
   }
 
   void read_parts(const Section& top) {
-    // `kinds` has a brick to read on with even when every [[kind]] is bad.
     std::vector<std::optional<PartPlan>> plans;
+    const std::size_t before = problems_.count();
     const auto read_all = [&](std::string_view key, std::span<const std::string_view> known, auto read_one) {
       int number = 0;
       for (Section& section : sections_of(top, key, known, problems_)) {
@@ -72,15 +73,15 @@ class Reader {
     read_all("curve", keys::kCurve, read_curve);
     read_all("brick", keys::kBrick, read_brick);
     parts_good_ = std::all_of(plans.begin(), plans.end(), [](const auto& plan) { return plan.has_value(); });
-    if (plans.empty() && !top.has("row") && !top.has("curve") && !top.has("brick")) {
-      problems_.add({}, "", "the layout is empty; it needs at least one [[row]], [[curve]] or [[brick]]");
-      parts_good_ = false;
+    if (plans.empty() && problems_.count() == before) {
+      problems_.add({1, 1, -1}, "", "the layout is empty; it needs at least one [[row]], [[curve]] or [[brick]]");
     }
+    if (plans.empty()) parts_good_ = false;
     for (auto& plan : plans) {
       if (plan) plans_.push_back(std::move(*plan));
     }
-    const auto order = [](const PartPlan& a, const PartPlan& b) { return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column); };
-    std::stable_sort(plans_.begin(), plans_.end(), order);
+    const auto order = [](const PartPlan& plan) { return std::tie(plan.place.line, plan.place.column, plan.path); };
+    std::sort(plans_.begin(), plans_.end(), [&](const PartPlan& a, const PartPlan& b) { return order(a) < order(b); });
   }
 
   void read_noise(const Section& top) {
@@ -123,7 +124,8 @@ class Reader {
     for (const PartPlan& plan : plans_) {
       total += plan.count;
       if (total <= kMaxBricks) continue;
-      problems_.add(plan.place, plan.path, "up to here the layout has " + count_text(total) + " bricks; at most " + count_text(kMaxBricks) + " are allowed");
+      problems_.add(plan.place, plan.path,
+                    "up to here the layout has " + count_text(total) + " bricks; at most " + count_text(kMaxBricks) + " are allowed");
       return;
     }
     layout_.bricks.reserve(static_cast<std::size_t>(total));

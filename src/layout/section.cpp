@@ -44,10 +44,13 @@ std::optional<Color> color_of(std::string_view text) {
 
 }  // namespace
 
-std::string range_text(const Range& range, std::string_view what) {
-  if (std::isinf(range.high)) return std::string(what) + (range.above_low ? " above " : " of at least ") + number_text(range.low);
-  if (range.above_low) return std::string(what) + " above " + number_text(range.low) + " and up to " + number_text(range.high);
-  return std::string(what) + " from " + number_text(range.low) + " to " + number_text(range.high);
+std::string range_text(const Range& range) {
+  // Allowed numbers that a person can read: 100,000,000.
+  const auto limit = [](double number) {
+    return number == std::floor(number) ? count_text(static_cast<long long>(number)) : number_text(number);
+  };
+  return "a number " + (range.above_low ? "above " + limit(range.low) + " and up to " : "from " + limit(range.low) + " to ") +
+         limit(range.high);
 }
 
 std::string value_text(const Node& node) {

@@ -20,7 +20,7 @@ struct Range {
 };
 
 /// "a number from 0.1 to 20000".
-std::string range_text(const Range& range, std::string_view what = "a number");
+std::string range_text(const Range& range);
 
 /// The value for a message: -5, "text", "a list of 3".
 std::string value_text(const Node& node);

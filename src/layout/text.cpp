@@ -122,7 +122,7 @@ std::string printable(std::string_view text, std::size_t limit) {
     if (text[0] == '\n') {
       out += "\\n";
     } else if (bytes == 0 || byte < 0x20 || byte == 0x7F || (byte == 0xC2 && static_cast<unsigned char>(text[1]) < 0xA0)) {
-      out += "\\x" + hexadecimal(byte);
+      for (const char c : text.substr(0, std::max<std::size_t>(bytes, 1))) out += "\\x" + hexadecimal(static_cast<unsigned char>(c));
     } else {
       out += text.substr(0, bytes);
     }

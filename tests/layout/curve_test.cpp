@@ -77,7 +77,8 @@ TEST_CASE("steps along a curve are equal to a millionth, and the tangent is the 
     const Spline::At at = spline.at(step * i);
     const Vec3 walk = at.point - last.point;
     worst_step = std::fmax(worst_step, std::abs(norm(walk) / step - 1.0));
-    worst_turn = std::fmax(worst_turn, norm((1.0 / norm(walk)) * walk - (0.5 / norm(0.5 * (at.tangent + last.tangent))) * (at.tangent + last.tangent)));
+    worst_turn = std::fmax(worst_turn,
+                           norm((1.0 / norm(walk)) * walk - (0.5 / norm(0.5 * (at.tangent + last.tangent))) * (at.tangent + last.tangent)));
     last = at;
   }
   CHECK(worst_step < 2e-7);
@@ -102,7 +103,9 @@ TEST_CASE("a colour runs from the first brick of a part to its last") {
   CHECK(color(0) == Color{255, 0, 0});
   CHECK(color(1) == Color{128, 0, 128});
   CHECK(color(2) == Color{0, 0, 255});
-  const Layout many = read("[[row]]\ncount = 1000\ngap_mm = 10\ncolor = \"#ff0000\"\ncolor_to = \"#0000ff\"\n[[row]]\nfrom_mm=[0,100]\ncount = 1\ngap_mm = 0\ncolor = \"#FF0000\"\n");
+  const Layout many = read(
+      "[[row]]\ncount = 1000\ngap_mm = 10\ncolor = \"#ff0000\"\ncolor_to = \"#0000ff\"\n[[row]]\nfrom_mm=[0,100]\ncount = 1\ngap_mm = "
+      "0\ncolor = \"#FF0000\"\n");
   CHECK(many.colors.size() == 256);
   CHECK(many.colors[many.bricks[999].color] == Color{0, 0, 255});
   CHECK(many.bricks[1000].color == many.bricks[0].color);

@@ -44,7 +44,8 @@ Spread spread(const Layout& layout, Of of) {
 
 TEST_CASE("noise has the standard deviations that were asked for and no drift") {
   const Layout layout = read(kNoisy);
-  // Of 1e5 draws, a mean scatters by 1 / sqrt(1e5) = 0.0032 of a standard deviation and a standard deviation by 0.0022 of itself; four times that.
+  // Of 1e5 draws, a mean scatters by 1 / sqrt(1e5) = 0.0032 of a standard deviation and a standard deviation by 0.0022 of itself; four
+  // times that.
   const Spread x = spread(layout, [](const Brick& brick, BrickId i) { return brick.foot.x - 0.04 * i; });
   const Spread y = spread(layout, [](const Brick& brick, BrickId) { return brick.foot.y; });
   const Spread turn = spread(layout, [](const Brick& brick, BrickId) { return brick.heading; });
@@ -73,8 +74,9 @@ TEST_CASE("switching the noise of headings off leaves the places as they were") 
 }
 
 TEST_CASE("bricks of a curve stand in the same places on every machine") {
-  CHECK(hash_of(read("[[curve]]\npoints_mm = [[0, 0], [1000, 200], [1050, 900], [300, 1000], [0, 3000]]\ngap_mm = 16.5\n")) == 548402728528129496ULL);  // golden
-  CHECK(hash_of(read("[[row]]\nheading_deg = 17\ncount = 1000\ngap_mm = 16.5\n")) == 4146545700142083972ULL);                                        // golden
+  CHECK(hash_of(read("[[curve]]\npoints_mm = [[0, 0], [1000, 200], [1050, 900], [300, 1000], [0, 3000]]\ngap_mm = 16.5\n")) ==
+        548402728528129496ULL);                                                                                // golden
+  CHECK(hash_of(read("[[row]]\nheading_deg = 17\ncount = 1000\ngap_mm = 16.5\n")) == 4146545700142083972ULL);  // golden
 }
 
 }  // namespace topple

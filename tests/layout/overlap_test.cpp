@@ -70,7 +70,8 @@ TEST_CASE("bricks that touch do not overlap, not even far from the origin") {
   // A wall: flat bricks end to end, one course on the other.
   std::string wall;
   for (int course = 0; course < 5; ++course) {
-    wall += "[[row]]\nfrom_mm = [" + std::to_string(course % 2 * 24) + ", 0, " + std::to_string(course * 7.5) + "]\ncount = 20\ngap_mm = 0\npose = \"flat\"\n";
+    wall += "[[row]]\nfrom_mm = [" + std::to_string(course % 2 * 24) + ", 0, " + std::to_string(course * 7.5) +
+            "]\ncount = 20\ngap_mm = 0\npose = \"flat\"\n";
   }
   CHECK(problems_of(wall) == "");
 }

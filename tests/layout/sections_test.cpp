@@ -25,7 +25,9 @@ std::map<std::string, Setting> settings(const Layout& layout) {
 }  // namespace
 
 TEST_CASE("the contact of a layout is that of every kind which does not say otherwise") {
-  const Layout layout = read(std::string("[contact]\nbrick_friction = 0.3\nfloor_restitution = 0.1\n[[kind]]\nname = \"a\"\n[[kind]]\nname = \"b\"\nbrick_friction = 0.4\n") + kRow);
+  const Layout layout = read(std::string("[contact]\nbrick_friction = 0.3\nfloor_restitution = 0.1\n[[kind]]\nname = \"a\"\n[[kind]]\nname "
+                                         "= \"b\"\nbrick_friction = 0.4\n") +
+                             kRow);
   CHECK(layout.kinds[0].surface.brick_friction == 0.3);
   CHECK(layout.kinds[0].surface.floor_friction == 0.5);
   CHECK(layout.kinds[0].surface.brick_restitution == 0.0);
@@ -44,9 +46,10 @@ TEST_CASE("the mass of a kind is given, or follows from its density, or from tha
 }
 
 TEST_CASE("the three ways to push") {
-  const Layout layout = read(std::string(kRow) +
-                             "[[push]]\nbrick = 0\nangular_speed_rad_s = 4\n[[push]]\nbrick = 1\nat_s = 0.5\nforce_n = 0.5\nheight_mm = 48\nduration_ms = 10\n"
-                             "[[push]]\nbrick = 2\nimpulse_n_s = 0.001\nheight_mm = 24\n");
+  const Layout layout = read(
+      std::string(kRow) +
+      "[[push]]\nbrick = 0\nangular_speed_rad_s = 4\n[[push]]\nbrick = 1\nat_s = 0.5\nforce_n = 0.5\nheight_mm = 48\nduration_ms = 10\n"
+      "[[push]]\nbrick = 2\nimpulse_n_s = 0.001\nheight_mm = 24\n");
   REQUIRE(layout.pushes.size() == 3);
   CHECK(std::get<AngularSpeedPush>(layout.pushes[0].how).angular_speed == 4.0);
   CHECK(layout.pushes[0].at == 0.0);
@@ -65,7 +68,8 @@ TEST_CASE("the three ways to push") {
 TEST_CASE("a part is of the kind it names, in the colour of its kind unless it has its own") {
   const Layout layout = read(
       "[[kind]]\nname = \"a\"\ncolor = \"#010203\"\n[[kind]]\nname = \"b\"\ncolor = \"#040506\"\n"
-      "[[brick]]\nat_mm = [0, 0]\n[[brick]]\nat_mm = [100, 0]\nkind = \"b\"\n[[brick]]\nat_mm = [200, 0]\nkind = \"b\"\ncolor = \"#AABBCC\"\n");
+      "[[brick]]\nat_mm = [0, 0]\n[[brick]]\nat_mm = [100, 0]\nkind = \"b\"\n[[brick]]\nat_mm = [200, 0]\nkind = \"b\"\ncolor = "
+      "\"#AABBCC\"\n");
   const auto color = [&](std::size_t i) { return layout.colors[layout.bricks[i].color]; };
   CHECK(layout.bricks[0].kind == 0);
   CHECK(layout.bricks[1].kind == 1);
@@ -75,7 +79,8 @@ TEST_CASE("a part is of the kind it names, in the colour of its kind unless it h
 }
 
 TEST_CASE("the settings of the model are passed on as they are, with the place they come from") {
-  const auto by_key = settings(read(std::string(kRow) + "[model]\nname = \"pivot\"\ntime_step_s = 0.001\nsteps = 3\nexact = true\n", {"hit=report", "time_step_s=1e-4", "model.pulse_ms=5"}));
+  const auto by_key = settings(read(std::string(kRow) + "[model]\nname = \"pivot\"\ntime_step_s = 0.001\nsteps = 3\nexact = true\n",
+                                    {"hit=report", "time_step_s=1e-4", "model.pulse_ms=5"}));
   CHECK(by_key.size() == 6);
   CHECK(std::get<std::string>(by_key.at("name").value) == "pivot");
   CHECK(by_key.at("name").where == "test.toml:5:8");
@@ -89,7 +94,8 @@ TEST_CASE("the settings of the model are passed on as they are, with the place t
 }
 
 TEST_CASE("an override changes any value of the file, and adds what is not there") {
-  const Layout layout = read(kRow, {"row.0.count=50", "contact.brick_friction=0.3", "title=Ten, or so", "gravity_m_s2=1.62", "noise.seed=3", "row.0.color=\"#102030\""});
+  const Layout layout = read(kRow, {"row.0.count=50", "contact.brick_friction=0.3", "title=Ten, or so", "gravity_m_s2=1.62", "noise.seed=3",
+                                    "row.0.color=\"#102030\""});
   CHECK(layout.brick_count() == 50);
   CHECK(layout.kinds[0].surface.brick_friction == 0.3);
   CHECK(layout.title == "Ten, or so");

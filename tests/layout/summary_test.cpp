@@ -6,7 +6,8 @@ namespace topple {
 
 TEST_CASE("a summary counts bricks by kind and colour and measures length and box") {
   const auto layout = read_layout(
-      "title = \"two\"\n[[kind]]\nname = \"a\"\n[[kind]]\nname = \"big\"\nheight_mm = 96\nwidth_mm = 48\nthickness_mm = 15\ncolor = \"#00ff0a\"\n"
+      "title = \"two\"\n[[kind]]\nname = \"a\"\n[[kind]]\nname = \"big\"\nheight_mm = 96\nwidth_mm = 48\nthickness_mm = 15\ncolor = "
+      "\"#00ff0a\"\n"
       "[[kind]]\nname = \"unused\"\n"
       "[[row]]\ncount = 11\npitch_mm = 20\n[[row]]\nkind = \"big\"\nfrom_mm = [0, 1000]\nheading_deg = 90\ncount = 3\npitch_mm = 100\n",
       "test.toml");
