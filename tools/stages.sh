@@ -31,7 +31,8 @@ stage() {
 
 # count LOG: the sums of 'passed' and 'failed' over doctest's totals, vitest's, unittest's, and plain closing lines.
 count() {
-  sed 's/\x1b\[[0-9;]*m//g' "$1" | awk '
+  # Without colours, and without the test's number that CTest puts before each line.
+  sed -E 's/\x1b\[[0-9;]*m//g; s/^[0-9]+: //' "$1" | awk '
     /\[doctest\] test cases:/ { split($0, part, "|"); good += part[2]; bad += part[3] }
     /^ +Tests +[0-9]+ (passed|failed)/ { for (i = 2; i < NF; ++i) { if ($(i + 1) == "passed") good += $i; if ($(i + 1) == "failed") bad += $i } }
     /^[0-9]+ passed, [0-9]+ failed/ { good += $1; bad += $3 }
