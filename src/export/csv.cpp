@@ -1,0 +1,135 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "export/output_file.h"
+#include "topple/export.h"
+
+namespace topple {
+namespace {
+
+/// Lines of a table, written in large pieces; numbers the same in every language of the machine.
+class Table {
+ public:
+  explicit Table(OutputFile file) : file_(std::move(file)) {}
+
+  void head(std::string_view columns) { text_ = std::string(columns) + "\n"; }
+
+  /// A cell; the shortest number that reads back as the same bits, empty where there is none.
+  template <typename Number>
+  Table& cell(Number number) {
+    separate();
+    if constexpr (std::is_floating_point_v<Number>) {
+      if (std::isnan(number)) return *this;
+      number += Number{0};  // No minus before a zero.
+    }
+    std::array<char, 64> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+    text_.append(digits.data(), end.ptr);
+    return *this;
+  }
+  Table& word(std::string_view word) {
+    separate();
+    text_ += word;
+    return *this;
+  }
+  Table& empty(int cells = 1) {
+    for (int i = 0; i < cells; ++i) separate();
+    return *this;
+  }
+  Result<void> end_line() {
+    text_ += '\n';
+    fresh_ = true;
+    if (text_.size() < kPiece) return {};
+    return write();
+  }
+  Result<void> finish() {
+    if (auto written = write(); !written) return written;
+    return file_.finish();
+  }
+
+ private:
+  static constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+  void separate() {
+    if (!fresh_) text_ += ',';
+    fresh_ = false;
+  }
+  Result<void> write() {
+    auto written = file_.write(text_);
+    text_.clear();
+    return written;
+  }
+
+  OutputFile file_;
+  std::string text_;
+  bool fresh_ = true;
+};
+
+Result<Table> create(const std::filesystem::path& path, std::string_view columns) {
+  auto file = OutputFile::create(path, OutputFile::Unfinished::removed);
+  if (!file) return std::unexpected(file.error());
+  Table table(std::move(*file));
+  table.head(columns);
+  return table;
+}
+
+// What a place that was kept as a float against the brick's foot is worth in the world: 10 nm.
+double in_steps(double metres) { return std::isnan(metres) ? metres : std::round(metres * 1e8) / 1e8; }
+
+void add_pose(Table& table, const Pose& pose) {
+  table.cell(pose.position.x).cell(pose.position.y).cell(pose.position.z);
+  table.cell(pose.orientation.w).cell(pose.orientation.x).cell(pose.orientation.y).cell(pose.orientation.z);
+}
+
+Result<void> add_track(Table& table, const Layout& layout, const Track& track) {
+  for (const HingedKnot& knot : track.hinged) {
+    table.cell(track.brick).cell(track.start + double{knot.time}).cell(knot.angle).cell(knot.rate).cell(knot.acceleration);
+    add_pose(table, hinged_pose(layout, track.brick, double{knot.angle}));
+    if (auto done = table.empty(6).end_line(); !done) return done;
+  }
+  for (const FreeKnot& knot : track.free) {
+    table.cell(track.brick).cell(track.start + double{knot.time}).empty(3);
+    const Vec3 offset{knot.x, knot.y, knot.z};
+    add_pose(table, {standing_pose(layout, track.brick).position + offset, {knot.qw, knot.qx, knot.qy, knot.qz}});
+    table.cell(knot.vx).cell(knot.vy).cell(knot.vz).cell(knot.wx).cell(knot.wy).cell(knot.wz);
+    if (auto done = table.end_line(); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> export_knots_csv(const Recording& recording, const std::filesystem::path& path) {
+  auto table = create(path,
+                      "brick,time_s,angle_rad,angular_velocity_rad_s,angular_acceleration_rad_s2,x_m,y_m,z_m,qw,qx,qy,qz,"
+                      "vx_m_s,vy_m_s,vz_m_s,wx_rad_s,wy_rad_s,wz_rad_s");
+  if (!table) return std::unexpected(table.error());
+  for (std::int64_t i = 0; i < recording.track_count(); ++i) {
+    if (auto done = add_track(*table, recording.layout(), recording.track(i)); !done) return done;
+  }
+  return table->finish();
+}
+
+Result<void> export_events_csv(const Recording& recording, const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 6> kWords = {"pushed", "struck", "arrived", "landed", "missed", "rested"};
+  auto table = create(path, "time_s,event,brick,by,force_n,impulse_n_s,x_m,y_m,z_m");
+  if (!table) return std::unexpected(table.error());
+  for (std::int64_t i = 0; i < recording.event_count(); ++i) {
+    const Event event = recording.event(i);
+    table->cell(event.time).word(kWords[static_cast<std::size_t>(event.kind)]).cell(event.brick);
+    if (event.by == kNoBrick) {
+      table->empty();
+    } else {
+      table->cell(event.by);
+    }
+    // Both were kept as floats.
+    table->cell(static_cast<float>(event.force)).cell(static_cast<float>(event.impulse));
+    table->cell(in_steps(event.point.x)).cell(in_steps(event.point.y)).cell(in_steps(event.point.z));
+    if (auto done = table->end_line(); !done) return done;
+  }
+  return table->finish();
+}
+
+}  // namespace topple

@@ -1,0 +1,111 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "recording/scripted_model.h"
+#include "topple/export.h"
+
+using namespace topple;
+using namespace topple::scripted;
+
+namespace {
+
+/// A folder that goes with its test.
+class Folder {
+ public:
+  explicit Folder(const std::string& name) : path_(std::filesystem::temp_directory_path() / ("topple_" + name)) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directory(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::vector<std::string> lines_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);) lines.push_back(line);
+  return lines;
+}
+
+class EventfulScript : public HingedScript {
+ public:
+  using HingedScript::HingedScript;
+  std::span<const Event> events() const override { return step_count() == 30 ? std::span<const Event>{events_} : std::span<const Event>{}; }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Event> events_ = {{0.0149, EventKind::struck, 1, 0, 5.0703, 0.0021, {0.0203, -0.0, 0.0426}},
+                                {0.015, EventKind::arrived, 0, kNoBrick, kNone, kNone, {kNone, kNone, kNone}}};
+};
+
+Recording three_bricks() {
+  EventfulScript script(wave(3), 0.0005);
+  auto layout = read_layout("[[row]]\ncount = 3\npitch_mm = 24\n", "three.toml");
+  REQUIRE(layout.has_value());
+  return record(std::move(*layout), script);
+}
+
+}  // namespace
+
+TEST_CASE("a recording that is saved and loaded has the same tracks") {
+  const Folder folder("saved");
+  const Recording before = three_bricks();
+  REQUIRE(save_recording(before, folder / "run.topple").has_value());
+  const auto after = load_recording(folder / "run.topple");
+  REQUIRE_MESSAGE(after.has_value(), after.error().message);
+  CHECK(after->track_count() == before.track_count());
+  CHECK(after->at(2, 0.1).hinge.angle == before.at(2, 0.1).hinge.angle);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.topple.part"));
+}
+
+TEST_CASE("an unfinished recording stays under its temporary name and can be read") {
+  const Folder folder("killed");
+  const Recording recording = three_bricks();
+  {
+    auto file = RecordingFile::create(recording, folder / "run.topple");
+    REQUIRE(file.has_value());
+    REQUIRE(file->append().has_value());
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "run.topple"));
+  const auto read = load_recording(folder / "run.topple.part");
+  REQUIRE_MESSAGE(read.has_value(), read.error().message);
+  CHECK(read->track_count() == recording.track_count());
+  CHECK(read->end().reason == EndReason::running);
+}
+
+TEST_CASE("files that cannot be are errors in words") {
+  const Folder folder("wrong");
+  const Recording recording = three_bricks();
+  CHECK(load_recording(folder / "none.topple").error().message.find("No such file") != std::string::npos);
+  CHECK(load_recording(folder / "").error().message.find("is a directory") != std::string::npos);
+  CHECK(save_recording(recording, folder / "no/such/run.topple").error().message.find("cannot be written") != std::string::npos);
+  CHECK(export_events_csv(recording, folder / "").error().message.find("is a directory") != std::string::npos);
+}
+
+TEST_CASE("the table of events has the documented columns, and is empty where a model has nothing") {
+  const Folder folder("events");
+  REQUIRE(export_events_csv(three_bricks(), folder / "events.csv").has_value());
+  const auto lines = lines_of(folder / "events.csv");
+  REQUIRE(lines.size() == 3);
+  CHECK(lines[0] == "time_s,event,brick,by,force_n,impulse_n_s,x_m,y_m,z_m");
+  CHECK(lines[1] == "0.0149,struck,1,0,5.0703,0.0021,0.0203,0,0.0426");
+  CHECK(lines[2] == "0.015,arrived,0,,,,,,");
+}
+
+TEST_CASE("the table of knots has a line a knot and as many cells as columns") {
+  const Folder folder("knots");
+  const Recording recording = three_bricks();
+  REQUIRE(export_knots_csv(recording, folder / "knots.csv").has_value());
+  const auto lines = lines_of(folder / "knots.csv");
+  std::size_t knots = 0;
+  for (std::int64_t i = 0; i < recording.track_count(); ++i) knots += recording.track(i).hinged.size();
+  REQUIRE(lines.size() == knots + 1);
+  for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 17);
+  CHECK(lines[0].starts_with("brick,time_s,angle_rad,"));
+}
