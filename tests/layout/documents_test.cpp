@@ -1,0 +1,78 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <span>
+#include <sstream>
+#include <string>
+
+#include "layout/keys.h"
+#include "topple/layout.h"
+
+namespace topple {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  REQUIRE_MESSAGE(file, path.string());
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// The chapter of docs/layout.md under the heading that begins so.
+std::string chapter(const std::string& document, const std::string& heading) {
+  const std::size_t from = document.find("\n## " + heading);
+  REQUIRE_MESSAGE(from != std::string::npos, heading);
+  return document.substr(from, document.find("\n## ", from + 4) - from);
+}
+
+}  // namespace
+
+TEST_CASE("docs/layout.md has every key of every table") {
+  const std::string document = text_of(TOPPLE_SOURCE_DIR "/docs/layout.md");
+  const std::map<std::string, std::span<const std::string_view>> tables{
+      {"Top level", keys::kTop}, {"`[contact]`", keys::kContact}, {"`[[kind]]`", keys::kKind},   {"`[[push]]`", keys::kPush},
+      {"`[[row]]`", keys::kRow}, {"`[[curve]]`", keys::kCurve},   {"`[[brick]]`", keys::kBrick}, {"`[noise]`", keys::kNoise},
+  };
+  for (const auto& [heading, known] : tables) {
+    const std::string text = chapter(document, heading);
+    std::size_t rows_keys = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("| `")) continue;
+      const std::string first = line.substr(0, line.find(" | ", 2));
+      for (const std::string_view key : known) rows_keys += first.find("`" + std::string(key) + "`") != std::string::npos ? 1U : 0U;
+    }
+    CHECK_MESSAGE(rows_keys == known.size(), heading);
+  }
+}
+
+TEST_CASE("the example of docs/layout.md is a layout") {
+  const std::string document = text_of(TOPPLE_SOURCE_DIR "/docs/layout.md");
+  const std::size_t from = document.find("```toml\n") + 8;
+  const auto layout = read_layout(document.substr(from, document.find("```", from) - from), "docs/layout.md");
+  REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
+}
+
+TEST_CASE("every scene is a layout with a title and a push") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TOPPLE_SOURCE_DIR "/scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++scenes;
+    const auto layout = read_layout(text_of(entry.path()), entry.path().filename().string());
+    REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
+    CHECK_MESSAGE(!layout->title.empty(), entry.path().string());
+    CHECK_MESSAGE(!layout->pushes.empty(), entry.path().string());
+  }
+  CHECK(scenes >= 5);
+}
+
+TEST_CASE("the S-curve has 200 bricks") {
+  const auto layout = read_layout(text_of(TOPPLE_SOURCE_DIR "/scenes/s_curve.toml"), "s_curve.toml");
+  REQUIRE(layout.has_value());
+  CHECK(layout->brick_count() == 200);
+}
+
+}  // namespace topple
