@@ -53,14 +53,14 @@ install_packages() {
   while read -r package; do
     installed "$package" || missing+=("$package")
   done < <(cat "$@")
-  [ ! -d studio ] || node_is_fit || missing+=(nodejs npm)
+  node_is_fit || missing+=(nodejs npm)
   if [ ${#missing[@]} -gt 0 ]; then
     [ "$(id -u)" = 0 ] || command -v sudo >/dev/null ||
       fail "these Debian packages are missing, and there is neither root nor sudo to install them: ${missing[*]}"
     say "Installing ${missing[*]}"
     step "install packages" apt_install "${missing[@]}"
   fi
-  [ ! -d studio ] || node_is_fit || fail "the page needs node $(node_wanted), and Debian gave $(node --version 2>/dev/null || echo none)"
+  node_is_fit || fail "the page needs node $(node_wanted), and Debian gave $(node --version 2>/dev/null || echo none)"
 }
 
 node_wanted() { sed -n 's/.*"node": *"\([^"]*\)".*/\1/p' studio/package.json; }
@@ -80,7 +80,7 @@ install_page_packages() {
   if [ ! -d studio/node_modules ] || changed studio/node_modules/.topple-stamp studio/package.json studio/package-lock.json; then
     say "Fetching the page's packages"
     changed studio/node_modules/.topple-stamp studio/package.json studio/package-lock.json || true
-    step "fetch the page's packages" npm --prefix studio ci --no-audit --no-fund
+    step "fetch packages of the page" npm --prefix studio ci --no-audit --no-fund
     printf '%s\n' "$stamp_now" >studio/node_modules/.topple-stamp
   fi
 }

@@ -97,7 +97,8 @@ HingedKnot HingedFit::knot_at(std::size_t index) const {
 
 HingedKnot HingedFit::knot(double time, const HingedState& state) const {
   if (!round_) {
-    return {static_cast<float>(time), static_cast<float>(state.angle), static_cast<float>(state.rate), static_cast<float>(state.acceleration)};
+    return {static_cast<float>(time), static_cast<float>(state.angle), static_cast<float>(state.rate),
+            static_cast<float>(state.acceleration)};
   }
   return {static_cast<float>(rounded(time, KnotSteps::kTime)), static_cast<float>(rounded(state.angle, KnotSteps::kAngle)),
           static_cast<float>(rounded(state.rate, KnotSteps::kRate)),

@@ -62,8 +62,8 @@ void write_color(Sink& sink, const Color& color) {
 void write_kind(Sink& sink, const BrickKind& kind) {
   sink.text(kind.name);
   const Surface& s = kind.surface;
-  for (const double value : {kind.height, kind.width, kind.thickness, kind.mass, s.brick_friction, s.floor_friction, s.brick_restitution,
-                             s.floor_restitution}) {
+  for (const double value :
+       {kind.height, kind.width, kind.thickness, kind.mass, s.brick_friction, s.floor_friction, s.brick_restitution, s.floor_restitution}) {
     sink.put(value);
   }
   write_color(sink, kind.color);
@@ -133,7 +133,7 @@ void write_track_heads(Sink& sink, std::span<const Track> tracks, Knots knots_of
 }
 
 template <typename Knot, typename Knots>
-void knot_column(Sink& sink, std::span<const Track> tracks, Knots knots_of, float Knot::*number) {
+void knot_column(Sink& sink, std::span<const Track> tracks, Knots knots_of, float Knot::* number) {
   sink.align();
   for (const Track& track : tracks) {
     for (const Knot& knot : knots_of(track)) sink.put(knot.*number);
