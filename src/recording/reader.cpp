@@ -37,21 +37,22 @@ std::unexpected<Error> RecordingReader::wrong(std::size_t offset, std::string_vi
 }
 
 std::unexpected<Error> RecordingReader::misfit(const Piece& piece) const {
-  return wrong(piece.offset, "the counts in piece " + shown(piece.type) + " do not fit its length of " + std::to_string(piece.payload.size()) +
-                                 " bytes; the file is damaged");
+  return wrong(piece.offset, "the counts in piece " + shown(piece.type) + " do not fit its length of " +
+                                 std::to_string(piece.payload.size()) + " bytes; the file is damaged");
 }
 
 Result<Recording> RecordingReader::read() {
   if (bytes_.size() < format::kMagic.size()) {
-    return failure(name_ + ": not a recording of Topple: it has " + std::to_string(bytes_.size()) + " bytes, a recording begins with the 8 bytes " +
-                   std::string(format::kMagic));
+    return failure(name_ + ": not a recording of Topple: it has " + std::to_string(bytes_.size()) +
+                   " bytes, a recording begins with the 8 bytes " + std::string(format::kMagic));
   }
   const std::string_view magic = chars(bytes_.first(format::kMagic.size()));
   if (magic != format::kMagic) {
     if (magic.starts_with("TOPPLE")) {
       return wrong(6, "a recording of version \"" + shown(magic.substr(6)) + "\"; this program reads version 01");
     }
-    return wrong(0, "not a recording of Topple: it begins with \"" + shown(magic) + "\", a recording with \"" + std::string(format::kMagic) + "\"");
+    return wrong(
+        0, "not a recording of Topple: it begins with \"" + shown(magic) + "\", a recording with \"" + std::string(format::kMagic) + "\"");
   }
   at_ = format::kMagic.size();
   if (auto done = read_pieces(); !done) return std::unexpected(done.error());
@@ -59,7 +60,8 @@ Result<Recording> RecordingReader::read() {
     if (!from_recipe_ || !has_scene_) return wrong(bytes_.size(), "the file is cut off before its recipe and scene are whole");
     if (auto done = build_layout(); !done) return std::unexpected(done.error());
   }
-  if (!ended_) recording_->store_->end = {EndReason::running, kNoBrick, 0, recording_->store_->time, 0, "the file was cut off before the run's end"};
+  if (!ended_)
+    recording_->store_->end = {EndReason::running, kNoBrick, 0, recording_->store_->time, 0, "the file was cut off before the run's end"};
   return std::move(*recording_);
 }
 
@@ -82,10 +84,12 @@ Result<std::optional<RecordingReader::Piece>> RecordingReader::next_piece() {
   header.get<std::uint32_t>();
   const auto check = header.get<std::uint32_t>();
   const auto length = header.get<std::uint64_t>();
-  if (!may_be_type(type)) return wrong(at_, "a piece should begin here, but \"" + shown(type) + "\" is no type of piece; the file is damaged");
+  if (!may_be_type(type))
+    return wrong(at_, "a piece should begin here, but \"" + shown(type) + "\" is no type of piece; the file is damaged");
   if (length > left - format::kHeader) {
     if (is_cut(at_)) return std::nullopt;
-    return wrong(at_ + 8, "piece " + shown(type) + " claims " + std::to_string(length) + " bytes, but others begin before their end; the file is damaged");
+    return wrong(at_ + 8, "piece " + shown(type) + " claims " + std::to_string(length) +
+                              " bytes, but others begin before their end; the file is damaged");
   }
   const Piece piece{type, bytes_.subspan(at_ + format::kHeader, static_cast<std::size_t>(length)), at_};
   const std::uint32_t found = crc32(piece.payload);
@@ -179,7 +183,8 @@ RecordingReader::Done RecordingReader::take_scene(const Piece& piece) {
     for (int k = 0; k < 3; ++k) source.get<double>();
   }
   if (!source.ok() || !source.at_end()) return misfit(piece);
-  if (!(tolerance_ > 0.0 && tolerance_ < 1.0)) return wrong(piece.offset, "the tolerance must be between 0 and 1, it is " + std::to_string(tolerance_));
+  if (!(tolerance_ > 0.0 && tolerance_ < 1.0))
+    return wrong(piece.offset, "the tolerance must be between 0 and 1, it is " + std::to_string(tolerance_));
   has_scene_ = true;
   return {};
 }
@@ -223,7 +228,8 @@ RecordingReader::Done RecordingReader::check_bricks(const Piece& piece) const {
   const std::size_t first = source.get<std::uint32_t>();
   const std::size_t count = source.get<std::uint32_t>();
   if (first + count > bricks.size()) {
-    return wrong(piece.offset, "the recipe makes " + std::to_string(bricks.size()) + " bricks, the file has at least " + std::to_string(first + count));
+    return wrong(piece.offset,
+                 "the recipe makes " + std::to_string(bricks.size()) + " bricks, the file has at least " + std::to_string(first + count));
   }
   const auto x = source.column<double>(count), y = source.column<double>(count), z = source.column<double>(count);
   const auto heading = source.column<double>(count);
@@ -231,8 +237,8 @@ RecordingReader::Done RecordingReader::check_bricks(const Piece& piece) const {
   const auto stance = source.column<std::uint8_t>(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Brick& brick = bricks[first + i];
-    const bool same = brick.foot == Vec3{x[i], y[i], z[i]} && brick.heading == heading[i] && brick.kind == kind[i] && brick.color == color[i] &&
-                      static_cast<std::uint8_t>(brick.stance) == stance[i];
+    const bool same = brick.foot == Vec3{x[i], y[i], z[i]} && brick.heading == heading[i] && brick.kind == kind[i] &&
+                      brick.color == color[i] && static_cast<std::uint8_t>(brick.stance) == stance[i];
     if (!same) return wrong(piece.offset, "brick " + std::to_string(first + i) + " is not where the recipe puts it");
   }
   return {};

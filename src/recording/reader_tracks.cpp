@@ -57,7 +57,9 @@ bool sound(const Tracks<N>& tracks, std::size_t first, std::size_t count) {
 // A track begins where the last one of its brick ended or later.
 RecordingReader::Done RecordingReader::check_start(BrickId brick, double start, double last_time, std::size_t offset) {
   TrackStore& tracks = recording_->store_->tracks;
-  const auto words = [&](std::string_view what) { return wrong(offset, "a track of brick " + std::to_string(brick) + " " + std::string(what)); };
+  const auto words = [&](std::string_view what) {
+    return wrong(offset, "a track of brick " + std::to_string(brick) + " " + std::string(what));
+  };
   if (!is_time(start) || !is_time(start + last_time)) return words("has a time that is none");
   const std::int32_t before = tracks.last_of(brick);
   if (before != TrackStore::kNone && end_of(tracks.track(static_cast<std::size_t>(before))) > start + 1e-6) {
@@ -76,9 +78,11 @@ RecordingReader::Done RecordingReader::take_hinged(const Piece& piece) {
   std::size_t first = 0;
   for (std::size_t t = 0; t < tracks.count; ++t) {
     const std::size_t count = tracks.knots[t];
-    if (tracks.brick[t] >= brick_count_) return wrong(piece.offset, "a track of brick " + std::to_string(tracks.brick[t]) + ", which is none");
+    if (tracks.brick[t] >= brick_count_)
+      return wrong(piece.offset, "a track of brick " + std::to_string(tracks.brick[t]) + ", which is none");
     if (count == 0) return wrong(piece.offset, "a track without knots");
-    if (!sound(tracks, first, count)) return wrong(piece.offset, "the knots of brick " + std::to_string(tracks.brick[t]) + " are no motion");
+    if (!sound(tracks, first, count))
+      return wrong(piece.offset, "the knots of brick " + std::to_string(tracks.brick[t]) + " are no motion");
     const auto brick = static_cast<BrickId>(tracks.brick[t]);
     knots.clear();
     const auto& [time, angle, rate, acceleration] = tracks.numbers;
@@ -98,15 +102,17 @@ RecordingReader::Done RecordingReader::take_free(const Piece& piece) {
   std::size_t first = 0;
   for (std::size_t t = 0; t < tracks.count; ++t) {
     const std::size_t count = tracks.knots[t];
-    if (tracks.brick[t] >= brick_count_) return wrong(piece.offset, "a track of brick " + std::to_string(tracks.brick[t]) + ", which is none");
+    if (tracks.brick[t] >= brick_count_)
+      return wrong(piece.offset, "a track of brick " + std::to_string(tracks.brick[t]) + ", which is none");
     if (count == 0) return wrong(piece.offset, "a track without knots");
-    if (!sound(tracks, first, count)) return wrong(piece.offset, "the knots of brick " + std::to_string(tracks.brick[t]) + " are no motion");
+    if (!sound(tracks, first, count))
+      return wrong(piece.offset, "the knots of brick " + std::to_string(tracks.brick[t]) + " are no motion");
     const auto brick = static_cast<BrickId>(tracks.brick[t]);
     knots.clear();
     const auto& n = tracks.numbers;
     for (std::size_t i = first; i < first + count; ++i) {
-      knots.push_back({n[0][i], n[1][i], n[2][i], n[3][i], n[4][i], n[5][i], n[6][i], n[7][i], n[8][i], n[9][i], n[10][i], n[11][i], n[12][i],
-                       n[13][i]});
+      knots.push_back({n[0][i], n[1][i], n[2][i], n[3][i], n[4][i], n[5][i], n[6][i], n[7][i], n[8][i], n[9][i], n[10][i], n[11][i],
+                       n[12][i], n[13][i]});
     }
     if (auto done = check_start(brick, tracks.start[t], double{knots.back().time}, piece.offset); !done) return done;
     recording_->store_->tracks.add(brick, tracks.start[t], knots);
@@ -175,8 +181,10 @@ RecordingReader::Done RecordingReader::take_end(const Piece& piece) {
   end.hash = source.get<std::uint64_t>();
   end.words = source.text();
   if (!source.ok() || !source.at_end()) return misfit(piece);
-  if (reason > static_cast<std::uint32_t>(EndReason::stopped)) return wrong(piece.offset, "the run ended for reason " + std::to_string(reason) + ", which is none");
-  if (brick != format::kNoBrickCode && brick >= brick_count_) return wrong(piece.offset, "the run ended at brick " + std::to_string(brick) + ", which is none");
+  if (reason > static_cast<std::uint32_t>(EndReason::stopped))
+    return wrong(piece.offset, "the run ended for reason " + std::to_string(reason) + ", which is none");
+  if (brick != format::kNoBrickCode && brick >= brick_count_)
+    return wrong(piece.offset, "the run ended at brick " + std::to_string(brick) + ", which is none");
   if (steps >> 62 != 0 || !is_time(end.time)) return wrong(piece.offset, "the run ended at a time that is none");
   end.reason = static_cast<EndReason>(reason);
   end.brick = brick == format::kNoBrickCode ? kNoBrick : static_cast<BrickId>(brick);
