@@ -4,7 +4,9 @@ find_package(PkgConfig REQUIRED)
 
 add_library(topple_options INTERFACE)
 # Same bits on every machine: no fused multiply-add behind our back, no reassociation.
-target_compile_options(topple_options INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor)
+target_compile_options(topple_options INTERFACE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor
+  # Designated initialisers name what differs from the default; the rest is meant to be left out.
+  -Wno-missing-field-initializers)
 # g++ 12 sees overlapping copies in "text" + string where there are none (GCC bug 105651, gone in 13).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(topple_options INTERFACE -Wno-restrict)
@@ -27,6 +29,7 @@ function(topple_chapter name)
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(topple_${name} PRIVATE $<BUILD_INTERFACE:topple_options>)
+  target_compile_definitions(topple_${name} PRIVATE TOPPLE_VERSION="${PROJECT_VERSION}")
   foreach(used ${CHAPTER_USES})
     target_link_libraries(topple_${name} PUBLIC topple_${used})
   endforeach()

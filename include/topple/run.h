@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "topple/recording.h"
 
@@ -53,5 +54,19 @@ struct ReplayVerdict {
   std::string words;
 };
 Result<ReplayVerdict> replay(const Recording& recording, const RunConfig& config = {});
+
+/// How the error of one integrator shrinks with its step.
+struct ConvergenceSeries {
+  Integrator integrator = Integrator::euler;
+  std::vector<double> time_steps;  ///< [s]
+  std::vector<double> errors;      ///< Of the tilt at `time` [rad].
+  double slope = 0.0;              ///< Of log(error) against log(step), least squares.
+};
+struct Convergence {
+  double time = 0.0;  ///< Length of the fall [s].
+  std::vector<ConvergenceSeries> series;
+};
+/// Free fall of the layout's first brick from its tip angle + 1 degree, before any contact, by each integrator of the pivot model.
+Convergence free_fall_convergence(const Layout& layout, InertiaRule inertia = InertiaRule::report);
 
 }  // namespace topple

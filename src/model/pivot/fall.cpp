@@ -1,0 +1,100 @@
+#include "model/pivot/fall.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/trigonometry.h"
+
+namespace topple::pivot {
+
+double Turning::acceleration(double theta, double time) const {
+  const SinCos tilt = sin_cos(theta);
+  const double gravity = sine * tilt.sin - cosine * tilt.cos;
+  return time < push_until ? push + gravity : gravity;
+}
+
+double moment_of_inertia(const Extents& size, double mass, InertiaRule rule) {
+  // [Arnesson2020] (2.4) divides by 12, which is about the centre of mass; the brick turns about an edge, where it is 3 (Steiner).
+  const double divisor = rule == InertiaRule::report ? 12.0 : 3.0;
+  return mass * (size.up * size.up + size.along * size.along) / divisor;
+}
+
+Turning turning(const Extents& size, double mass, double gravity, InertiaRule rule) {
+  const double weight_over_inertia = mass * gravity / moment_of_inertia(size, mass, rule);
+  return {.sine = 0.5 * weight_over_inertia * size.up, .cosine = 0.5 * weight_over_inertia * size.along};
+}
+
+namespace {
+
+Fall euler(const Turning& body, const Fall& from, double h) {
+  // [Arnesson2020] (3.1) and (3.2): both right sides at the old time.
+  return {.time = from.time + h,
+          .theta = from.theta + h * from.omega,
+          .omega = from.omega + h * body.acceleration(from.theta, from.time)};
+}
+
+Fall semi_implicit(const Turning& body, const Fall& from, double h) {
+  const double omega = from.omega + h * body.acceleration(from.theta, from.time);
+  return {.time = from.time + h, .theta = from.theta + h * omega, .omega = omega};
+}
+
+Fall rk4(const Turning& body, const Fall& from, double h) {
+  // No force begins or ends inside the step (advance() splits it there), so every stage sees the force of its beginning.
+  const double t = from.time;
+  const double k1 = body.acceleration(from.theta, t);
+  const double w2 = from.omega + 0.5 * h * k1;
+  const double k2 = body.acceleration(from.theta + 0.5 * h * from.omega, t);
+  const double w3 = from.omega + 0.5 * h * k2;
+  const double k3 = body.acceleration(from.theta + 0.5 * h * w2, t);
+  const double w4 = from.omega + h * k3;
+  const double k4 = body.acceleration(from.theta + h * w3, t);
+  return {.time = t + h,
+          .theta = from.theta + h / 6.0 * (from.omega + 2.0 * w2 + 2.0 * w3 + w4),
+          .omega = from.omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)};
+}
+
+Fall one_step(const Turning& body, const Fall& from, double until, Integrator integrator) {
+  const double h = until - from.time;
+  Fall to = integrator == Integrator::euler           ? euler(body, from, h)
+            : integrator == Integrator::semi_implicit ? semi_implicit(body, from, h)
+                                                      : rk4(body, from, h);
+  to.time = until;
+  return to;
+}
+
+}  // namespace
+
+Fall advance(const Turning& body, Fall from, double until, Integrator integrator) {
+  if (from.time < body.push_until && body.push_until < until) from = one_step(body, from, body.push_until, integrator);
+  return one_step(body, from, until, integrator);
+}
+
+double time_of_passing(const Turning& body, const Fall& from, double until, double theta, Integrator integrator) {
+  double low = from.time;
+  double high = until;
+  double below = from.theta - theta;
+  if (below >= 0.0) return from.time;
+  double above = advance(body, from, until, integrator).theta - theta;
+  if (!(above >= 0.0)) return std::numeric_limits<double>::infinity();
+  // Regula falsi, the value of an end kept twice halved (Illinois); Euler's step is linear in time, so that the first guess is exact.
+  int kept = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = high - above * (high - low) / (above - below);
+    const double value = advance(body, from, middle, integrator).theta - theta;
+    if (std::fabs(value) < 1e-15) return middle;
+    if (value < 0.0) {
+      low = middle;
+      below = value;
+      if (kept == 1) above *= 0.5;
+      kept = 1;
+    } else {
+      high = middle;
+      above = value;
+      if (kept == -1) below *= 0.5;
+      kept = -1;
+    }
+  }
+  return high;
+}
+
+}  // namespace topple::pivot

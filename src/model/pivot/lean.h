@@ -1,0 +1,54 @@
+/// How far one brick may turn before the brick ahead of it stops it: closed forms for neighbours in line, the root of the true
+/// distance of the two boxes for all others.
+#pragma once
+
+#include "topple/layout.h"
+
+namespace topple::pivot {
+
+/// The tilt that the brick ahead allows, and how fast that bound moves.
+struct Bound {
+  double theta = 0.0;  ///< [rad]
+  double rate = 0.0;   ///< [rad/s]; not a number where it is not known in closed form.
+};
+
+/// A brick (behind) and one that it can reach (ahead). `side` is +1 for a brick that turns about its toe, -1 about its heel.
+class Pair {
+ public:
+  Pair(const Layout& layout, BrickId behind, int behind_side, BrickId ahead, int ahead_side);
+
+  BrickId ahead() const { return ahead_; }
+  bool in_line() const { return in_line_; }
+
+  /// Tilt of the brick behind when it touches the one ahead that still stands [rad]; not a number if it never does.
+  double contact_angle() const { return contact_angle_; }
+
+  /// Height at which it then touches [m].
+  double contact_height() const { return contact_height_; }
+
+  /// Bound on the tilt of the brick behind, which comes from `from` and would like to get to `to` [rad], when the one ahead has turned
+  /// to `ahead` at `ahead_rate`. At least `from`; `to` or more if nothing is in the way.
+  Bound bound(double from, double to, double ahead, double ahead_rate) const;
+
+  /// Where the one ahead stops when it falls back from `from` to `to` (< from) onto the one behind at tilt `behind` [rad].
+  double fall_back_stop(double behind, double from, double to) const;
+
+ private:
+  double distance(double behind, double ahead) const;
+  Bound bound_in_line(double ahead, double ahead_rate) const;
+  void find_contact(double height);
+
+  const Layout* layout_;
+  BrickId behind_;
+  BrickId ahead_;
+  int behind_side_;
+  int ahead_side_;
+  bool in_line_ = false;      ///< Same size, same direction: the closed forms hold.
+  double pitch_ = 0.0;        ///< Toe to toe along the heading [m].
+  double height_ = 0.0;       ///< [m]
+  double thickness_ = 0.0;    ///< [m]
+  double contact_angle_ = 0.0;
+  double contact_height_ = 0.0;
+};
+
+}  // namespace topple::pivot

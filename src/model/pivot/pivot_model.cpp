@@ -1,0 +1,276 @@
+#include "model/pivot/pivot_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/trigonometry.h"
+
+namespace topple::pivot {
+
+namespace {
+
+constexpr double kRightAngle = 0.5 * kPi;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// A leaning brick rests when, at its rate, it would move its upper edge by less than this fraction of its thickness in the time
+// sqrt(H / g); it wakes when the brick ahead would let it move further than that. Ten times finer than what a recording keeps.
+constexpr double kRestTolerance = 1e-4;
+
+double rest_angle(const Body& body) { return kRestTolerance * body.size.along / body.size.up; }
+
+}  // namespace
+
+Result<std::unique_ptr<Model>> make_pivot_model(const Layout& layout, const PivotConfig& config) {
+  auto lines = find_lines(layout);
+  if (!lines) return std::unexpected(lines.error());
+  return std::make_unique<PivotModel>(layout, config, std::move(*lines));
+}
+
+PivotModel::PivotModel(const Layout& layout, const PivotConfig& config, Lines lines)
+    : layout_(layout), config_(config), moving_(layout, config, std::move(lines)), pushes_(layout.pushes.size()) {
+  std::iota(pushes_.begin(), pushes_.end(), std::size_t{0});
+  std::stable_sort(pushes_.begin(), pushes_.end(), [&](auto a, auto b) { return layout.pushes[a].at < layout.pushes[b].at; });
+}
+
+Status PivotModel::step() {
+  begin_ = static_cast<double>(step_count_) * config_.time_step;
+  ++step_count_;
+  end_ = static_cast<double>(step_count_) * config_.time_step;
+  events_.clear();
+  kinks_.clear();
+  retired_.clear();
+  start_pushes();
+  hand_on_hits();
+  turn_bricks();
+  const Status status = check_and_hash();
+  rest_and_wake();
+  std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  if (status.progress == Progress::not_finite) return status;
+  const bool done = moving_.order().empty() && next_push_ == pushes_.size();
+  return {.progress = done ? Progress::at_rest : Progress::running};
+}
+
+void PivotModel::turn_bricks() {
+  for (const std::int32_t slot : moving_.order()) turn(moving_[slot]);
+}
+
+void PivotModel::turn(Moving& moving) {
+  const Fall from = moving.fall;
+  Fall to = advance(moving.turning, from, end_, config_.integrator);
+  if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) to = {.time = end_};  // Back on its foot.
+  bool held_up = false;
+  if (to.theta < from.theta) stop_on_brick_behind(moving, from, to, held_up);
+  moving.held_up = held_up;
+  lean(moving, from, to);
+  if (to.theta >= kRightAngle) land(moving, from, to);
+  note_arrival(moving, from, to);
+  if (from.time < moving.turning.push_until) push_work_ += moving.turning.push * moving.body->inertia * (to.theta - from.theta);
+  moving.fall = to;
+}
+
+void PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to, bool& held_up) const {
+  const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
+  if (behind == kNoBrick || moving_.tilt(behind) == 0.0) return;
+  const Pair pair(layout_, behind, moving_.lines().side[static_cast<std::size_t>(behind)], moving.brick, moving.side);
+  const double stop = pair.fall_back_stop(moving_.tilt(behind), from.theta, to.theta);
+  if (stop <= to.theta) return;
+  to = {.time = end_, .theta = stop};
+  held_up = true;
+}
+
+void PivotModel::lean(Moving& moving, const Fall& from, Fall& to) {
+  const bool was_leaning = moving.leaning;
+  moving.leaning = false;
+  const double dt = end_ - from.time;
+  double acceleration = moving.turning.acceleration(to.theta, end_);
+  for (const Pair& pair : moving.ahead) {
+    const double tilt = moving_.tilt(pair.ahead());
+    // What stands and was not struck yet is not leant on: the hit was looked for already.
+    if (tilt == 0.0 && !moving_.still(pair.ahead()).struck) continue;
+    const Bound bound = pair.bound(from.theta, to.theta, tilt, moving_.rate(pair.ahead()));
+    if (to.theta < bound.theta) continue;
+    const double rate = std::isnan(bound.rate) ? (bound.theta - from.theta) / dt : bound.rate;
+    if (was_leaning) {
+      follow_kink(moving, pair);
+    } else {
+      catch_up(moving, from, to, bound, pair.ahead());
+    }
+    moving.leaning = true;
+    to = {.time = end_, .theta = bound.theta, .omega = std::fmin(rate, to.omega)};
+    const bool kinked = moving.kink_time > from.time;
+    const double since = end_ - (kinked ? moving.kink_time : from.time);
+    const double earlier = kinked ? moving.kink_after.rate : from.omega;
+    acceleration = since > 1e-3 * dt ? (to.omega - earlier) / since : moving.acceleration;
+  }
+  moving.acceleration = acceleration;
+}
+
+void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead) {
+  // Both move evenly through so short a time, so the gap closes evenly too.
+  const double dt = end_ - from.time;
+  const double bound_rate = std::isnan(bound.rate) ? 0.0 : bound.rate;
+  const double gap = (bound.theta - bound_rate * dt) - from.theta;
+  const double excess = to.theta - bound.theta;
+  const double share = gap > 0.0 && gap + excess > 0.0 ? gap / (gap + excess) : 0.0;
+  const double theta = from.theta + share * (to.theta - from.theta);
+  const double time = from.time + share * dt;
+  kink(moving, time, {theta, from.omega + share * (to.omega - from.omega), moving.acceleration},
+       {theta, std::fmin(bound_rate, to.omega), 0.0});
+  MovingSet::Still& still = moving_.still(moving.brick);
+  if (still.landed) return;
+  still.landed = true;
+  note(EventKind::landed, time, moving.brick, ahead);
+}
+
+void PivotModel::follow_kink(Moving& moving, const Pair& pair) {
+  const Moving* ahead = moving_.find(pair.ahead());
+  if (ahead == nullptr || !pair.in_line() || ahead->kink_time <= begin_ || ahead->kink_time < moving.fall.time) return;
+  const HingedState& b = ahead->kink_before;
+  const HingedState& a = ahead->kink_after;
+  const Bound before = pair.bound(0.0, kRightAngle, b.angle, b.rate);
+  const Bound after = pair.bound(0.0, kRightAngle, a.angle, a.rate);
+  kink(moving, ahead->kink_time, {before.theta, before.rate, moving.acceleration}, {after.theta, after.rate, moving.acceleration});
+}
+
+void PivotModel::land(Moving& moving, const Fall& from, Fall& to) {
+  const double share = to.theta > from.theta ? (kRightAngle - from.theta) / (to.theta - from.theta) : 0.0;
+  const double time = from.time + share * (end_ - from.time);
+  const double omega = from.omega + share * (to.omega - from.omega);
+  kink(moving, time, {kRightAngle, omega, moving.turning.acceleration(kRightAngle, time)}, {kRightAngle, 0.0, 0.0});
+  to = {.time = end_, .theta = kRightAngle};
+  moving.acceleration = 0.0;
+  MovingSet::Still& still = moving_.still(moving.brick);
+  if (!still.landed) note(EventKind::landed, time, moving.brick);
+  still.landed = true;
+  if (!moving.ahead.empty()) return;
+  for (const Part& part : layout_.parts) {
+    const bool has_next = moving.brick >= part.first && moving.brick + 1 < part.first + part.count;
+    if (has_next) note(EventKind::missed, time, moving.brick, moving.brick + 1);
+  }
+}
+
+void PivotModel::note_arrival(const Moving& moving, const Fall& from, const Fall& to) {
+  MovingSet::Still& still = moving_.still(moving.brick);
+  if (still.arrived || to.theta < kArrivalTilt) return;
+  still.arrived = true;
+  const double share = to.theta > from.theta ? std::fmax(0.0, (kArrivalTilt - from.theta) / (to.theta - from.theta)) : 0.0;
+  note(EventKind::arrived, from.time + share * (end_ - from.time), moving.brick);
+}
+
+Status PivotModel::check_and_hash() {
+  Status status;
+  for (const std::int32_t slot : moving_.order()) {
+    const Moving& moving = moving_[slot];
+    hash_.add(static_cast<std::uint64_t>(moving.brick));
+    hash_.add(moving.fall.theta);
+    hash_.add(moving.fall.omega);
+    if (!std::isfinite(moving.fall.theta + moving.fall.omega)) status = {Progress::not_finite, moving.brick};
+  }
+  return status;
+}
+
+bool PivotModel::at_rest(Moving& moving) {
+  if (end_ < moving.turning.push_until) return false;
+  if (moving.fall.theta >= kRightAngle) return true;
+  if (moving.fall.theta == 0.0) return moving.fall.omega == 0.0;
+  const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
+  if (moving.held_up) return moving_.find(behind) == nullptr;
+  if (!moving.leaning) return false;
+  for (const Pair& pair : moving.ahead) {
+    // One that leans on a brick which is still falling has only paused.
+    const Moving* ahead = moving_.find(pair.ahead());
+    if (ahead != nullptr && !ahead->leaning && !ahead->held_up) return false;
+  }
+  return std::fabs(moving.fall.omega) * std::sqrt(moving.body->size.up / layout_.gravity) < rest_angle(*moving.body);
+}
+
+void PivotModel::rest_and_wake() {
+  to_wake_.clear();
+  for (const std::int32_t slot : moving_.order()) {
+    Moving& moving = moving_[slot];
+    wake_brick_behind(moving);
+    if (!at_rest(moving)) continue;
+    moving.fall.omega = 0.0;
+    moving.acceleration = 0.0;
+    moving.phase = moving.fall.theta == 0.0 ? Phase::standing : Phase::resting;
+    retired_.push_back({moving.brick, moving.phase, state(moving)});
+    still_potential_ += potential(moving.brick, moving.fall.theta);
+    MovingSet::Still& still = moving_.still(moving.brick);
+    if (!still.rested) note(EventKind::rested, end_, moving.brick);
+    still.rested = true;
+    moving_.rest(slot);
+  }
+  if (!retired_.empty()) moving_.sweep();
+  for (const BrickId brick : to_wake_) {
+    if (moving_.find(brick) == nullptr) wake_or_find(brick, end_);
+  }
+}
+
+void PivotModel::wake_brick_behind(const Moving& moving) {
+  if (moving.behind) {
+    // The brick behind rests on this one, which may have moved on since.
+    const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
+    const double tilt = moving_.tilt(behind);
+    const double slack = rest_angle(moving_.body_of(behind));
+    const Bound bound = moving.behind->bound(tilt, tilt + 2.0 * slack, moving.fall.theta, moving.fall.omega);
+    if (tilt < kRightAngle && bound.theta > tilt + slack) to_wake_.push_back(behind);
+  }
+  if (moving.fall.omega >= 0.0) return;
+  // A brick that fell back onto this one loses its hold when this one falls back too.
+  for (const Pair& pair : moving.ahead) {
+    const bool held = moving_.find(pair.ahead()) == nullptr && moving_.tilt(pair.ahead()) > 0.0;
+    if (held && moving_.tilt(pair.ahead()) < tip_angle(moving_.body_of(pair.ahead()).size)) to_wake_.push_back(pair.ahead());
+  }
+}
+
+Moving& PivotModel::wake_or_find(BrickId brick, double time) {
+  if (Moving* moving = moving_.find(brick)) return *moving;
+  still_potential_ -= potential(brick, moving_.tilt(brick));
+  return moving_.wake(brick, time);
+}
+
+void PivotModel::kink(Moving& moving, double time, const HingedState& before, const HingedState& after) {
+  moving.kink_time = time;
+  moving.kink_before = before;
+  moving.kink_after = after;
+  const double sign = moving.side;
+  kinks_.push_back({moving.brick,
+                    time,
+                    {sign * before.angle, sign * before.rate, sign * before.acceleration},
+                    {sign * after.angle, sign * after.rate, sign * after.acceleration}});
+}
+
+void PivotModel::note(EventKind kind, double time, BrickId brick, BrickId by) {
+  events_.push_back({.time = time, .kind = kind, .brick = brick, .by = by, .force = kNone, .impulse = kNone, .point = {kNone, kNone, kNone}});
+}
+
+HingedState PivotModel::state(const Moving& moving) const {
+  const double sign = moving.side;
+  return {sign * moving.fall.theta, sign * moving.fall.omega, sign * moving.acceleration};
+}
+
+double PivotModel::potential(BrickId brick, double tilt) const {
+  const Body& body = moving_.body_of(brick);
+  const SinCos turned = sin_cos(tilt);
+  const double rise = 0.5 * (body.size.up * (turned.cos - 1.0) + body.size.along * turned.sin);
+  return body.mass * layout_.gravity * rise;
+}
+
+void PivotModel::read(Frame& out) const {
+  out.time = end_;
+  out.hinged.clear();
+  out.free.clear();
+  out.kinks.assign(kinks_.begin(), kinks_.end());
+  out.energy = {.kinetic = 0.0, .potential = still_potential_, .push_work = push_work_};
+  for (const std::int32_t slot : moving_.order()) {
+    const Moving& moving = moving_[slot];
+    out.hinged.push_back({moving.brick, moving.phase, state(moving)});
+    out.energy.kinetic += 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
+    out.energy.potential += potential(moving.brick, moving.fall.theta);
+  }
+  out.hinged.insert(out.hinged.end(), retired_.begin(), retired_.end());
+}
+
+}  // namespace topple::pivot

@@ -1,0 +1,90 @@
+/// The report's model [Arnesson2020], well defined for many bricks: each turns about its lower edge, hits hand on angular velocity or a
+/// force, and no brick turns past what the one ahead of it allows.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/hash.h"
+#include "model/pivot/moving_set.h"
+#include "topple/model.h"
+
+namespace topple::pivot {
+
+/// May refuse a layout: bricks above the floor, merges, crossings, loops. The layout must outlive the model.
+Result<std::unique_ptr<Model>> make_pivot_model(const Layout& layout, const PivotConfig& config);
+
+class PivotModel final : public Model {
+ public:
+  PivotModel(const Layout& layout, const PivotConfig& config, Lines lines);
+
+  Status step() override;
+  std::int64_t step_count() const override { return step_count_; }
+  double time_step() const override { return config_.time_step; }
+  void read(Frame& out) const override;
+  std::span<const Event> events() const override { return events_; }
+  std::span<const Contact> contacts() const override { return {}; }
+  std::uint64_t hash() const override { return hash_.value(); }
+
+ private:
+  /// A hit inside the step.
+  struct Hit {
+    double time = 0.0;
+    BrickId hitter = kNoBrick;
+    BrickId struck = kNoBrick;
+  };
+
+  // The stages of a step.
+  void start_pushes();
+  void hand_on_hits();
+  void turn_bricks();
+  Status check_and_hash();
+  void rest_and_wake();
+
+  // Pushes and hits.
+  void push(BrickId brick, std::size_t push, double time);
+  void find_hit(const Moving& hitter);
+  void hand_on(const Hit& hit);
+  double report_force(const Moving& hitter, double time) const;
+  void strike(const Hit& hit, const Pair& pair, double omega, double force);
+
+  // One brick.
+  Moving& wake_or_find(BrickId brick, double time);
+  void turn(Moving& moving);
+  void stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to, bool& held_up) const;
+  void lean(Moving& moving, const Fall& from, Fall& to);
+  void catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead);
+  void follow_kink(Moving& moving, const Pair& pair);
+  void land(Moving& moving, const Fall& from, Fall& to);
+  void note_arrival(const Moving& moving, const Fall& from, const Fall& to);
+  bool at_rest(Moving& moving);
+  void wake_brick_behind(const Moving& moving);
+
+  void kink(Moving& moving, double time, const HingedState& before, const HingedState& after);
+  void note(EventKind kind, double time, BrickId brick, BrickId by = kNoBrick);
+  HingedState state(const Moving& moving) const;
+  double potential(BrickId brick, double tilt) const;
+
+  const Layout& layout_;
+  PivotConfig config_;
+  MovingSet moving_;
+  std::vector<std::size_t> pushes_;  ///< Indices into Layout::pushes in the order of their times.
+  std::size_t next_push_ = 0;
+
+  std::int64_t step_count_ = 0;
+  double begin_ = 0.0;  ///< Of the step [s].
+  double end_ = 0.0;    ///< Of the step [s].
+  Hash hash_;
+  double push_work_ = 0.0;        ///< [J]
+  double still_potential_ = 0.0;  ///< Of the bricks that do not move [J].
+
+  std::vector<Hit> hits_;
+  std::vector<Event> events_;
+  std::vector<Kink> kinks_;
+  std::vector<HingedMotion> retired_;  ///< Bricks that came to rest in this step.
+  std::vector<BrickId> to_wake_;
+};
+
+}  // namespace topple::pivot
