@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "topple/measure.h"
 
@@ -92,13 +93,16 @@ double Wave::local_speed(std::size_t index, std::size_t window) const {
   return speed_between(*this, from, to);
 }
 
+// A track ends in single precision, perhaps a little after the last step.
+constexpr double kAfterAll = std::numeric_limits<double>::infinity();
+
 RunSummary summarize(const Recording& recording) {
   const Layout& layout = recording.layout();
   RunSummary summary;
   summary.bricks = layout.brick_count();
   summary.duration = recording.duration();
   for (BrickId brick = 0; brick < layout.brick_count(); ++brick) {
-    const BrickState state = recording.at(brick, summary.duration);
+    const BrickState state = recording.at(brick, kAfterAll);
     if (state.phase != Phase::resting) continue;
     const Extents size = extents(layout.kind_of(brick), layout.bricks[static_cast<std::size_t>(brick)].stance);
     if (std::abs(state.hinge.angle) > tip_angle(size)) ++summary.fallen;

@@ -15,6 +15,9 @@ constexpr double kRightAngle = 0.5 * kPi;
 // Directions that agree to this [rad] count as in line: at the far edge of a brick it is a millionth of a thickness.
 constexpr double kInLineAngle = 1e-7;
 
+// Two bricks nearer than this fraction of the thickness touch.
+constexpr double kTouching = 1e-6;
+
 // A root of a falling function of an angle in [low, high], where value(low) >= 0 > value(high): the side that is still apart.
 template <typename Function>
 double falling_root(const Function& value, double low, double high) {
@@ -108,17 +111,15 @@ Bound Pair::bound(double from, double to, double ahead, double ahead_rate) const
     const Bound bound = bound_in_line(ahead, ahead_rate);
     return bound.theta >= from ? bound : Bound{.theta = from, .rate = 0.0};
   }
-  if (to <= from || distance(to, ahead) >= 0.0) return {.theta = std::fmax(from, to), .rate = kNever};
+  if (to <= from || distance(to, ahead) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = kNever};
   if (distance(from, ahead) < 0.0) return {.theta = from, .rate = 0.0};
   return {.theta = falling_root([this, ahead](double t) { return distance(t, ahead); }, from, to), .rate = kNever};
 }
 
-double Pair::fall_back_stop(double behind, double from, double to) const {
-  const auto apart = [&](double ahead) {
-    if (!in_line_) return distance(behind, ahead);
-    return bound_in_line(ahead, 0.0).theta - behind;
-  };
-  if (apart(to) >= 0.0) return to;
+std::optional<double> Pair::fall_back_stop(double behind, double from, double to) const {
+  const double touching = kTouching * (in_line_ ? thickness_ / height_ : thickness_);
+  const auto apart = [&](double ahead) { return (in_line_ ? bound_in_line(ahead, 0.0).theta - behind : distance(behind, ahead)) - touching; };
+  if (apart(to) >= 0.0) return std::nullopt;
   if (apart(from) < 0.0) return from;
   // In terms of how far it has fallen back, the distance falls.
   return from - falling_root([&](double back) { return apart(from - back); }, 0.0, from - to);

@@ -2,6 +2,8 @@
 /// distance of the two boxes for all others.
 #pragma once
 
+#include <optional>
+
 #include "topple/layout.h"
 
 namespace topple::pivot {
@@ -27,11 +29,11 @@ class Pair {
   double contact_height() const { return contact_height_; }
 
   /// Bound on the tilt of the brick behind, which comes from `from` and would like to get to `to` [rad], when the one ahead has turned
-  /// to `ahead` at `ahead_rate`. At least `from`; `to` or more if nothing is in the way.
+  /// to `ahead` at `ahead_rate`. At least `from`; more than `to` if nothing is in the way.
   Bound bound(double from, double to, double ahead, double ahead_rate) const;
 
-  /// Where the one ahead stops when it falls back from `from` to `to` (< from) onto the one behind at tilt `behind` [rad].
-  double fall_back_stop(double behind, double from, double to) const;
+  /// Where the one ahead stops when it falls back from `from` to `to` (<= from) onto the one behind at tilt `behind` [rad], if it does.
+  std::optional<double> fall_back_stop(double behind, double from, double to) const;
 
  private:
   double distance(double behind, double ahead) const;

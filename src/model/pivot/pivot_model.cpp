@@ -41,11 +41,12 @@ Status PivotModel::step() {
   events_.clear();
   kinks_.clear();
   retired_.clear();
+  wake_unsupported();
   start_pushes();
   hand_on_hits();
   turn_bricks();
   const Status status = check_and_hash();
-  rest_and_wake();
+  rest_bricks();
   std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
   if (status.progress == Progress::not_finite) return status;
   const bool done = moving_.order().empty() && next_push_ == pushes_.size();
@@ -61,7 +62,7 @@ void PivotModel::turn(Moving& moving) {
   Fall to = advance(moving.turning, from, end_, config_.integrator);
   if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) to = {.time = end_};  // Back on its foot.
   bool held_up = false;
-  if (to.theta < from.theta) stop_on_brick_behind(moving, from, to, held_up);
+  if (to.omega < 0.0) stop_on_brick_behind(moving, from, to, held_up);
   moving.held_up = held_up;
   lean(moving, from, to);
   if (to.theta >= kRightAngle) land(moving, from, to);
@@ -74,9 +75,9 @@ void PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fa
   const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
   if (behind == kNoBrick || moving_.tilt(behind) == 0.0) return;
   const Pair pair(layout_, behind, moving_.lines().side[static_cast<std::size_t>(behind)], moving.brick, moving.side);
-  const double stop = pair.fall_back_stop(moving_.tilt(behind), from.theta, to.theta);
-  if (stop <= to.theta) return;
-  to = {.time = end_, .theta = stop};
+  const auto stop = pair.fall_back_stop(moving_.tilt(behind), from.theta, std::fmin(from.theta, to.theta));
+  if (!stop) return;
+  to = {.time = end_, .theta = *stop};
   held_up = true;
 }
 
@@ -186,11 +187,10 @@ bool PivotModel::at_rest(Moving& moving) {
   return std::fabs(moving.fall.omega) * std::sqrt(moving.body->size.up / layout_.gravity) < rest_angle(*moving.body);
 }
 
-void PivotModel::rest_and_wake() {
-  to_wake_.clear();
+void PivotModel::rest_bricks() {
   for (const std::int32_t slot : moving_.order()) {
     Moving& moving = moving_[slot];
-    wake_brick_behind(moving);
+    find_unsupported(moving);
     if (!at_rest(moving)) continue;
     moving.fall.omega = 0.0;
     moving.acceleration = 0.0;
@@ -203,25 +203,27 @@ void PivotModel::rest_and_wake() {
     moving_.rest(slot);
   }
   if (!retired_.empty()) moving_.sweep();
-  for (const BrickId brick : to_wake_) {
-    if (moving_.find(brick) == nullptr) wake_or_find(brick, end_);
-  }
 }
 
-void PivotModel::wake_brick_behind(const Moving& moving) {
+void PivotModel::wake_unsupported() {
+  for (const BrickId brick : unsupported_) wake_or_find(brick, begin_);
+  unsupported_.clear();
+}
+
+void PivotModel::find_unsupported(const Moving& moving) {
   if (moving.behind) {
     // The brick behind rests on this one, which may have moved on since.
     const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
     const double tilt = moving_.tilt(behind);
     const double slack = rest_angle(moving_.body_of(behind));
     const Bound bound = moving.behind->bound(tilt, tilt + 2.0 * slack, moving.fall.theta, moving.fall.omega);
-    if (tilt < kRightAngle && bound.theta > tilt + slack) to_wake_.push_back(behind);
+    if (tilt < kRightAngle && bound.theta > tilt + slack) unsupported_.push_back(behind);
   }
   if (moving.fall.omega >= 0.0) return;
   // A brick that fell back onto this one loses its hold when this one falls back too.
   for (const Pair& pair : moving.ahead) {
     const bool held = moving_.find(pair.ahead()) == nullptr && moving_.tilt(pair.ahead()) > 0.0;
-    if (held && moving_.tilt(pair.ahead()) < tip_angle(moving_.body_of(pair.ahead()).size)) to_wake_.push_back(pair.ahead());
+    if (held && moving_.tilt(pair.ahead()) < tip_angle(moving_.body_of(pair.ahead()).size)) unsupported_.push_back(pair.ahead());
   }
 }
 

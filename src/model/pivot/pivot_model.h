@@ -37,11 +37,12 @@ class PivotModel final : public Model {
   };
 
   // The stages of a step.
+  void wake_unsupported();
   void start_pushes();
   void hand_on_hits();
   void turn_bricks();
   Status check_and_hash();
-  void rest_and_wake();
+  void rest_bricks();
 
   // Pushes and hits.
   void push(BrickId brick, std::size_t push, double time);
@@ -60,7 +61,7 @@ class PivotModel final : public Model {
   void land(Moving& moving, const Fall& from, Fall& to);
   void note_arrival(const Moving& moving, const Fall& from, const Fall& to);
   bool at_rest(Moving& moving);
-  void wake_brick_behind(const Moving& moving);
+  void find_unsupported(const Moving& moving);
 
   void kink(Moving& moving, double time, const HingedState& before, const HingedState& after);
   void note(EventKind kind, double time, BrickId brick, BrickId by = kNoBrick);
@@ -84,7 +85,7 @@ class PivotModel final : public Model {
   std::vector<Event> events_;
   std::vector<Kink> kinks_;
   std::vector<HingedMotion> retired_;  ///< Bricks that came to rest in this step.
-  std::vector<BrickId> to_wake_;
+  std::vector<BrickId> unsupported_;    ///< Resting bricks whose support moved on: they wake in the next step.
 };
 
 }  // namespace topple::pivot
