@@ -111,9 +111,18 @@ Bound Pair::bound(double from, double to, double ahead, double ahead_rate) const
     const Bound bound = bound_in_line(ahead, ahead_rate);
     return bound.theta >= from ? bound : Bound{.theta = from, .rate = 0.0};
   }
-  if (to <= from || distance(to, ahead) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = kNever};
+  if (to <= from || distance(to, ahead) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = 0.0};
   if (distance(from, ahead) < 0.0) return {.theta = from, .rate = 0.0};
-  return {.theta = falling_root([this, ahead](double t) { return distance(t, ahead); }, from, to), .rate = kNever};
+  const double theta = falling_root([this, ahead](double t) { return distance(t, ahead); }, from, to);
+  return {.theta = theta, .rate = ahead_rate * bound_slope(theta, ahead)};
+}
+
+double Pair::bound_slope(double behind, double ahead) const {
+  // The distance stays zero: d theta / d ahead = -(dD / d ahead) / (dD / d theta).
+  constexpr double kSmall = 1e-6;
+  const double by_ahead = distance(behind, ahead + kSmall) - distance(behind, ahead - kSmall);
+  const double by_behind = distance(behind + kSmall, ahead) - distance(behind - kSmall, ahead);
+  return by_behind < 0.0 ? -by_ahead / by_behind : 0.0;
 }
 
 std::optional<double> Pair::fall_back_stop(double behind, double from, double to) const {

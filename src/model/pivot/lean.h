@@ -11,7 +11,7 @@ namespace topple::pivot {
 /// The tilt that the brick ahead allows, and how fast that bound moves.
 struct Bound {
   double theta = 0.0;  ///< [rad]
-  double rate = 0.0;   ///< [rad/s]; not a number where it is not known in closed form.
+  double rate = 0.0;   ///< [rad/s]
 };
 
 /// A brick (behind) and one that it can reach (ahead). `side` is +1 for a brick that turns about its toe, -1 about its heel.
@@ -38,6 +38,7 @@ class Pair {
  private:
   double distance(double behind, double ahead) const;
   Bound bound_in_line(double ahead, double ahead_rate) const;
+  double bound_slope(double behind, double ahead) const;
   void find_contact(double height);
 
   const Layout* layout_;

@@ -92,14 +92,13 @@ void PivotModel::lean(Moving& moving, const Fall& from, Fall& to) {
     if (tilt == 0.0 && !moving_.still(pair.ahead()).struck) continue;
     const Bound bound = pair.bound(from.theta, to.theta, tilt, moving_.rate(pair.ahead()));
     if (to.theta < bound.theta) continue;
-    const double rate = std::isnan(bound.rate) ? (bound.theta - from.theta) / dt : bound.rate;
     if (was_leaning) {
       follow_kink(moving, pair);
     } else {
       catch_up(moving, from, to, bound, pair.ahead());
     }
     moving.leaning = true;
-    to = {.time = end_, .theta = bound.theta, .omega = std::fmin(rate, to.omega)};
+    to = {.time = end_, .theta = bound.theta, .omega = std::fmin(bound.rate, to.omega)};
     const bool kinked = moving.kink_time > from.time;
     const double since = end_ - (kinked ? moving.kink_time : from.time);
     const double earlier = kinked ? moving.kink_after.rate : from.omega;
@@ -111,14 +110,13 @@ void PivotModel::lean(Moving& moving, const Fall& from, Fall& to) {
 void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead) {
   // Both move evenly through so short a time, so the gap closes evenly too.
   const double dt = end_ - from.time;
-  const double bound_rate = std::isnan(bound.rate) ? 0.0 : bound.rate;
-  const double gap = (bound.theta - bound_rate * dt) - from.theta;
+  const double gap = (bound.theta - bound.rate * dt) - from.theta;
   const double excess = to.theta - bound.theta;
   const double share = gap > 0.0 && gap + excess > 0.0 ? gap / (gap + excess) : 0.0;
   const double theta = from.theta + share * (to.theta - from.theta);
   const double time = from.time + share * dt;
   kink(moving, time, {theta, from.omega + share * (to.omega - from.omega), moving.acceleration},
-       {theta, std::fmin(bound_rate, to.omega), 0.0});
+       {theta, std::fmin(bound.rate, to.omega), 0.0});
   MovingSet::Still& still = moving_.still(moving.brick);
   if (still.landed) return;
   still.landed = true;
