@@ -1,5 +1,6 @@
 #include "recording/hinged_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "recording/hermite.h"
@@ -8,16 +9,18 @@
 namespace topple {
 namespace {
 
-constexpr std::size_t kFirstTest = 8;
-constexpr std::size_t kMostSamples = 512;  // A buffer's end: longer segments gain nothing.
+constexpr std::size_t kFirstTest = 64;
+constexpr std::size_t kMostSamples = 256;  // A buffer's end: longer segments gain little.
 // A piece ends after so many knots, and after so long that a float's time is still far finer than the tolerance.
 constexpr std::size_t kMostKnots = 240;
 constexpr double kLongestPiece = 3.0;  // [s]
-// Smaller jumps than these fractions of the largest rate and acceleration do not show in a plot.
-constexpr float kRateJump = 0.02F;
-constexpr float kAccelerationJump = 0.25F;
-// Rounding in floats must not carry a sample over the tolerance.
-constexpr float kMargin = 0.98F;
+// A smaller jump than this fraction of the largest rate does not show in a plot.
+constexpr double kRateJump = 0.02;
+// A pause is held to its angle at so many moments.
+constexpr int kHolds = 16;
+// What is left of the tolerance for rounding in floats, and for what happens between two samples, as a fraction of it.
+constexpr double kBetweenSamples = 0.05;
+constexpr float kMargin = 0.94F;
 
 using Four = float __attribute__((vector_size(16)));
 
@@ -27,37 +30,58 @@ Four load(const float* from) {
   return four;
 }
 
-// Largest distance of the first `count` samples from the curve: four at a time, the rest one by one.
-float worst_miss(const Quintic& curve, double span, const float* time, const float* angle, std::size_t count) {
-  const auto per = static_cast<float>(1.0 / span);
-  const auto c1 = static_cast<float>(curve.c1), c2 = static_cast<float>(curve.c2), c3 = static_cast<float>(curve.c3);
-  const auto c4 = static_cast<float>(curve.c4), c5 = static_cast<float>(curve.c5);
+/// A quintic in floats, asked about many samples.
+struct Curve {
+  Curve(const Quintic& curve, double span)
+      : per(static_cast<float>(1.0 / span)),
+        c1(static_cast<float>(curve.c1)),
+        c2(static_cast<float>(curve.c2)),
+        c3(static_cast<float>(curve.c3)),
+        c4(static_cast<float>(curve.c4)),
+        c5(static_cast<float>(curve.c5)) {}
+
+  template <typename Number>
+  Number miss(Number time, Number angle) const {
+    const Number u = time * per;
+    const Number miss = u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))) - angle;
+    return miss < 0.0F ? -miss : miss;
+  }
+
+  float per, c1, c2, c3, c4, c5;
+};
+
+// Largest miss of every `stride`-th four of the first `count` samples.
+float worst_of_fours(const Curve& curve, const float* time, const float* angle, std::size_t count, std::size_t stride) {
   Four worst{};
-  std::size_t i = 0;
-  for (; i + 4 <= count; i += 4) {
-    const Four u = load(time + i) * per;
-    const Four miss = u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))) - load(angle + i);
-    const Four size = miss < 0.0F ? -miss : miss;
+  for (std::size_t i = 0; i + 4 <= count; i += 4 * stride) {
+    const Four size = curve.miss(load(time + i), load(angle + i));
     worst = size > worst ? size : worst;
   }
-  float most = std::max(std::max(worst[0], worst[1]), std::max(worst[2], worst[3]));
-  for (; i < count; ++i) {
-    const float u = time[i] * per;
-    most = std::max(most, std::abs(u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))) - angle[i]));
+  return std::max(std::max(worst[0], worst[1]), std::max(worst[2], worst[3]));
+}
+
+// Whether the first `count` samples lie within `tolerance` of the curve. A few are asked first: most curves that fail do so there.
+bool within(const Curve& curve, const float* time, const float* angle, std::size_t count, float tolerance) {
+  if (count >= 32 && worst_of_fours(curve, time, angle, count, 4) > tolerance) return false;
+  if (worst_of_fours(curve, time, angle, count, 1) > tolerance) return false;
+  for (std::size_t i = count / 4 * 4; i < count; ++i) {
+    if (curve.miss(time[i], angle[i]) > tolerance) return false;
   }
-  return most;
+  return true;
 }
 
 }  // namespace
 
-void HingedFit::open(BrickId brick, double time, const HingedState& state, double tolerance) {
+void HingedFit::open(BrickId brick, double time, const HingedState& state, double tolerance, bool again) {
   brick_ = brick;
   tolerance_ = static_cast<float>(tolerance) * kMargin;
   round_ = tolerance >= KnotSteps::kFinestTolerance;
+  again_ = again;
+  paused_ = false;
   start_ = time;
   count_ = good_ = 0;
   next_test_ = kFirstTest;
-  top_rate_ = top_acceleration_ = 0.0F;
+  top_rate_ = 0.0;
   knots_.clear();
   kinks_.clear();
   push_knot(knot(0.0, state));
@@ -68,31 +92,27 @@ void HingedFit::push_knot(const HingedKnot& knot) {
   base_time_ = double{knot.time};
   base_angle_ = double{knot.angle};
   base_clock_ = start_ + base_time_;
+  top_rate_ = std::max(top_rate_, std::abs(double{knot.rate}));
 }
 
-void HingedFit::append(double time, const HingedState& state) {
-  if (count_ == time_.size()) {
-    const std::size_t room = std::max<std::size_t>(64, 2 * count_);
-    for (auto* column : {&time_, &angle_, &rate_, &acceleration_}) column->resize(room);
+void HingedFit::grow() {
+  const std::size_t room = std::max<std::size_t>(64, 2 * room_);
+  auto samples = std::make_unique_for_overwrite<float[]>(4 * room);
+  for (std::size_t column = 0; column < 4; ++column) {
+    std::copy_n(samples_.get() + column * room_, count_, samples.get() + column * room);
   }
-  const auto rate = static_cast<float>(state.rate);
-  const auto acceleration = static_cast<float>(state.acceleration);
-  time_[count_] = static_cast<float>(time - base_clock_);
-  angle_[count_] = static_cast<float>(state.angle - base_angle_);
-  rate_[count_] = rate;
-  acceleration_[count_] = acceleration;
-  top_rate_ = std::max(top_rate_, std::abs(rate));
-  top_acceleration_ = std::max(top_acceleration_, std::abs(acceleration));
-  ++count_;
+  samples_ = std::move(samples);
+  room_ = room;
 }
 
 bool HingedFit::at(double time) const {
   const float since = static_cast<float>(time - base_clock_);
-  return count_ == 0 ? since <= 0.0F : since <= time_[count_ - 1];
+  return count_ == 0 ? since <= 0.0F : since <= times()[count_ - 1];
 }
 
 HingedKnot HingedFit::knot_at(std::size_t index) const {
-  return knot(base_time_ + double{time_[index]}, {base_angle_ + double{angle_[index]}, double{rate_[index]}, double{acceleration_[index]}});
+  return knot(base_time_ + double{times()[index]},
+              {base_angle_ + double{angles()[index]}, double{rates()[index]}, double{accelerations()[index]}});
 }
 
 HingedKnot HingedFit::knot(double time, const HingedState& state) const {
@@ -111,7 +131,7 @@ bool HingedFit::fits(std::size_t count) const {
   const HingedKnot last = knot_at(count - 1);
   const double span = double{last.time} - base_time_;
   if (span <= 0.0) return false;
-  return worst_miss(quintic(knots_.back(), last, span), span, time_.data(), angle_.data(), count) <= tolerance_;
+  return within(Curve(quintic(knots_.back(), last, span), span), times(), angles(), count, tolerance_);
 }
 
 std::size_t HingedFit::longest(std::size_t good, std::size_t bad) const {
@@ -154,7 +174,7 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
     if (kink.index > index) break;
     ++passed;
     if (kink.index != index) continue;
-    HingedKnot after = knot(0.0, {0.0, double{kink.rate}, double{kink.acceleration}});
+    HingedKnot after = knot(0.0, {0.0, kink.rate, kink.acceleration});
     after.time = knots_.back().time;
     after.angle = knots_.back().angle;
     push_knot(after);
@@ -165,12 +185,10 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
   const auto later = static_cast<float>(base_time_ - old_time);
   const auto further = static_cast<float>(base_angle_ - old_angle);
   count_ -= count;
-  for (std::size_t i = 0; i < count_; ++i) {
-    time_[i] = time_[i + count] - later;
-    angle_[i] = angle_[i + count] - further;
-    rate_[i] = rate_[i + count];
-    acceleration_[i] = acceleration_[i + count];
-  }
+  for (std::size_t i = 0; i < count_; ++i) times()[i] = times()[i + count] - later;
+  for (std::size_t i = 0; i < count_; ++i) angles()[i] = angles()[i + count] - further;
+  std::copy_n(rates() + count, count_, rates());
+  std::copy_n(accelerations() + count, count_, accelerations());
   good_ = 0;
   next_test_ = kFirstTest;
   if (knots_.size() >= kMostKnots || base_time_ > kLongestPiece) {
@@ -187,35 +205,77 @@ void HingedFit::store(TrackStore& out) {
   knots_.clear();
 }
 
-bool HingedFit::matters(const Kink& kink) const {
-  return std::abs(kink.after.rate - kink.before.rate) > double{kRateJump * top_rate_} ||
-         std::abs(kink.after.acceleration - kink.before.acceleration) > double{kAccelerationJump * top_acceleration_};
+// Whether a jump must be kept as one. Smoothing over it is checked at the samples only, and between two of them, `step` apart, the angle
+// of a bend of the rate is off by an eighth of bend times step.
+bool HingedFit::matters(const Kink& kink, double step) {
+  top_rate_ = std::max({top_rate_, std::abs(kink.before.rate), std::abs(kink.after.rate)});
+  const double jump = std::abs(kink.after.rate - kink.before.rate);
+  return (jump > kRateJump * top_rate_ && !never_left()) || jump * step > 8.0 * kBetweenSamples * double{tolerance_};
 }
 
-void HingedFit::add_kink(const Kink& kink, TrackStore& out) {
+void HingedFit::add_kink(const Kink& kink, double step, TrackStore& out) {
   append(kink.time, kink.before);
-  kinks_.push_back({count_ - 1, static_cast<float>(kink.after.rate), static_cast<float>(kink.after.acceleration)});
-  top_rate_ = std::max(top_rate_, static_cast<float>(std::abs(kink.after.rate)));
-  top_acceleration_ = std::max(top_acceleration_, static_cast<float>(std::abs(kink.after.acceleration)));
-  if (matters(kink)) {
+  kinks_.push_back({count_ - 1, kink.after.rate, kink.after.acceleration});
+  if (matters(kink, step)) {
     flush(out);
   } else if (count_ >= next_test_) {
     stretch(out);
   }
 }
 
-void HingedFit::close(bool still, TrackStore& out) {
-  if (still && count_ > 0 && std::abs(rate_[count_ - 1]) <= kRateJump * top_rate_) {
-    rate_[count_ - 1] = acceleration_[count_ - 1] = 0.0F;
-    good_ = std::min(good_, count_ - 1);  // What fitted ended otherwise.
-  }
-  flush(out);
-  HingedKnot last = knots_.back();
-  if (still && (last.rate != 0.0F || last.acceleration != 0.0F)) {
+void HingedFit::pause(double time, const HingedState& state, TrackStore& out) {
+  if (!at(time)) add(time, {state.angle, 0.0, 0.0}, out);
+  paused_at_ = time;
+  paused_ = true;
+  stop();
+}
+
+void HingedFit::pause() {
+  paused_at_ = base_clock_ + (count_ > 0 ? double{times()[count_ - 1]} : 0.0);
+  paused_ = true;
+  stop();
+}
+
+// Lets the last thing taken be one of rest; after a fast one, with a jump.
+void HingedFit::stop() {
+  if (count_ == 0) {
+    HingedKnot last = knots_.back();
+    if (last.rate == 0.0F && last.acceleration == 0.0F) return;
     last.rate = last.acceleration = 0.0F;
     push_knot(last);
+    return;
   }
-  store(out);
+  if (!kinks_.empty() && kinks_.back().index + 1 == count_) {
+    kinks_.back().rate = kinks_.back().acceleration = 0.0;
+  } else if (std::abs(double{rates()[count_ - 1]}) > kRateJump * top_rate_) {
+    kinks_.push_back({count_ - 1, 0.0, 0.0});
+  } else {
+    rates()[count_ - 1] = accelerations()[count_ - 1] = 0.0F;
+  }
+  good_ = std::min(good_, count_ - 1);  // What fitted ended otherwise.
+}
+
+void HingedFit::resume(double time, TrackStore& out) {
+  paused_ = false;
+  const double angle = base_angle_ + (count_ > 0 ? double{angles()[count_ - 1]} : 0.0);
+  const double begin = paused_at_;
+  for (int i = 1; i <= kHolds; ++i) {
+    const double hold = begin + (time - begin) * i / kHolds;
+    if (!at(hold)) add(hold, {angle, 0.0, 0.0}, out);
+  }
+}
+
+// Whether a brick that had moved before stayed within the tolerance of where it rested.
+bool HingedFit::never_left() const {
+  return again_ && knots_.size() == 1 &&
+         std::all_of(angles(), angles() + count_, [&](float angle) { return std::abs(angle) <= tolerance_; });
+}
+
+void HingedFit::close(bool still, TrackStore& out) {
+  if (!still || !never_left()) {
+    flush(out);
+    store(out);
+  }
   brick_ = kNoBrick;
 }
 

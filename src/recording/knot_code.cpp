@@ -8,7 +8,7 @@ namespace {
 
 enum class Way : std::uint8_t { rounded, floats, free };
 
-/// A knot in steps.
+/// A knot in steps; less than 2^24 of each.
 struct Whole {
   std::int32_t time = 0, angle = 0, rate = 0, acceleration = 0;
 };
@@ -23,6 +23,25 @@ bool to_steps(float value, double step, std::int32_t& steps) {
 bool to_whole(const HingedKnot& knot, Whole& whole) {
   return to_steps(knot.time, KnotSteps::kTime, whole.time) && to_steps(knot.angle, KnotSteps::kAngle, whole.angle) &&
          to_steps(knot.rate, KnotSteps::kRate, whole.rate) && to_steps(knot.acceleration, KnotSteps::kAcceleration, whole.acceleration);
+}
+
+// What a rate is after an even change of acceleration; after a jump most are zero. Any guess will do that the decoder makes too, so these
+// are computed in whole numbers or in the plainest of doubles.
+std::int32_t expected_rate(const Whole& last, const Whole& now) {
+  if (now.time == last.time) return 0;
+  const double span = (now.time - last.time) * KnotSteps::kTime;
+  const double mean = 0.5 * KnotSteps::kAcceleration * (1.0 * last.acceleration + now.acceleration);
+  const double change = mean * span / KnotSteps::kRate;
+  return std::abs(change) < 0x1p24 ? static_cast<std::int32_t>(last.rate + change) : last.rate;
+}
+
+// The angle that the corrected trapezium rule expects.
+std::int32_t expected_angle(const Whole& last, const Whole& now) {
+  const double span = (now.time - last.time) * KnotSteps::kTime;
+  const double mean = 0.5 * KnotSteps::kRate * (1.0 * last.rate + now.rate);
+  const double bend = KnotSteps::kAcceleration * (1.0 * last.acceleration - now.acceleration) / 12.0;
+  const double change = span * (mean + span * bend) / KnotSteps::kAngle;
+  return std::abs(change) < 0x1p24 ? static_cast<std::int32_t>(last.angle + change) : last.angle;
 }
 
 HingedKnot to_knot(const Whole& whole) {
@@ -75,15 +94,15 @@ void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out) {
   Whole last;
   for (const HingedKnot& knot : knots) {
     Whole now;
-    if (!to_whole(knot, now)) {
+    if (!to_whole(knot, now) || now.time < last.time) {
       out.resize(start);
       head(out, knots.size(), Way::floats);
       return put_floats(knots, out);
     }
-    put_signed(out, now.time - last.time);
-    put_signed(out, now.angle - last.angle);
-    put_signed(out, now.rate);
+    put(out, static_cast<std::uint32_t>(now.time - last.time));
     put_signed(out, now.acceleration - last.acceleration);
+    put_signed(out, now.rate - expected_rate(last, now));
+    put_signed(out, now.angle - expected_angle(last, now));
     last = now;
   }
 }
@@ -110,10 +129,11 @@ void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vect
   }
   Whole whole;
   for (HingedKnot& knot : hinged) {
-    whole.time += get_signed(code);
-    whole.angle += get_signed(code);
-    whole.rate = get_signed(code);
+    const Whole last = whole;
+    whole.time += static_cast<std::int32_t>(get(code));
     whole.acceleration += get_signed(code);
+    whole.rate = expected_rate(last, whole) + get_signed(code);
+    whole.angle = expected_angle(last, whole) + get_signed(code);
     knot = to_knot(whole);
   }
 }

@@ -9,6 +9,9 @@ namespace {
 constexpr std::size_t kMostEnergySamples = 16384;
 constexpr std::size_t kMostHashes = 65536;
 constexpr std::int32_t kClosed = -1;
+// A brick that rests for so long has a new track when it moves again [s]; a wave passes a few bricks meanwhile.
+constexpr double kPatience = 0.25;
+constexpr std::int64_t kStepsBetweenCloses = 64;
 
 // The largest error of an angle [rad] that moves no corner further than `length` [m]: the farthest one is across the box from its hinge.
 double angle_tolerance(const Extents& size, double length) { return length / std::sqrt(size.along * size.along + size.up * size.up); }
@@ -17,16 +20,17 @@ bool is_finite(const HingedState& state) { return std::isfinite(state.angle + st
 
 }  // namespace
 
-/// The tracks that are not finished. Those of bricks that rest again leave their buffers to the next.
+/// The tracks that are not finished. Those that are closed leave their buffers to the next.
 struct Recorder::Open {
   explicit Open(Recording::Store& the_store) : store(the_store), slot(the_store.layout.bricks.size(), kClosed) {}
 
-  HingedState last_state(BrickId brick) const;
-  HingedFit& hinged_fit(BrickId brick, double time, const HingedState& state);
+  HingedFit& begin(BrickId brick, double time, HingedState state);
+  void wake(const HingedMotion& motion);
   void take_kinks();
   void take_hinged();
-  void close_absent();
-  void close(std::size_t index, bool still);
+  void pause_absent();
+  void close_long_paused();
+  void close(HingedFit& fit, bool still);
   void take_energy(std::int64_t step_count);
   void take_hash(const Model& model);
 
@@ -35,76 +39,119 @@ struct Recorder::Open {
   double time_step = 0.0;
   std::int64_t step = 0;
   std::int64_t energy_stride = 1;
-  std::vector<std::int32_t> slot;  // Of each brick, its place in `hinged`, or kClosed.
-  std::vector<HingedFit> hinged;   // The first `moving` of them are open.
-  std::size_t moving = 0;
+  std::vector<std::int32_t> slot;  // Of each brick, its place in `fits`, or kClosed.
+  std::vector<HingedFit> fits;
+  std::vector<std::int32_t> unused;  // Places in `fits`.
+  std::int64_t moving = 0;           // Open and not paused.
+  Track last;                        // A buffer.
 };
 
-HingedState Recorder::Open::last_state(BrickId brick) const {
-  const std::int32_t piece = store.tracks.last_of(brick);
-  if (piece == TrackStore::kNone) return {};
-  const Track track = store.tracks.track(static_cast<std::size_t>(piece));
-  return {track.hinged.empty() ? 0.0 : double{track.hinged.back().angle}, 0.0, 0.0};
-}
-
-// The open track of a brick; one that has none begins with `state`.
-HingedFit& Recorder::Open::hinged_fit(BrickId brick, double time, const HingedState& state) {
-  std::int32_t& index = slot[static_cast<std::size_t>(brick)];
-  if (index == kClosed) {
-    if (moving == hinged.size()) hinged.emplace_back();
-    index = static_cast<std::int32_t>(moving);
-    const BrickKind& kind = store.layout.kind_of(brick);
-    const Extents size = extents(kind, store.layout.bricks[static_cast<std::size_t>(brick)].stance);
-    hinged[moving].open(brick, time, state, angle_tolerance(size, store.tolerance * kind.thickness));
-    ++moving;
+// Opens the track of a brick. One that moved before goes on from its last knot, if it is as near as it should be.
+HingedFit& Recorder::Open::begin(BrickId brick, double time, HingedState state) {
+  if (unused.empty()) {
+    unused.push_back(static_cast<std::int32_t>(fits.size()));
+    fits.emplace_back();
   }
-  return hinged[static_cast<std::size_t>(index)];
+  const std::int32_t index = unused.back();
+  unused.pop_back();
+  slot[static_cast<std::size_t>(brick)] = index;
+  ++moving;
+
+  const BrickKind& kind = store.layout.kind_of(brick);
+  const Extents size = extents(kind, store.layout.bricks[static_cast<std::size_t>(brick)].stance);
+  const double tolerance = angle_tolerance(size, store.tolerance * kind.thickness);
+  const std::int32_t before = store.tracks.last_of(brick);
+  bool again = false;
+  if (before != TrackStore::kNone) {
+    store.tracks.read(static_cast<std::size_t>(before), last);
+    again = !last.hinged.empty() && std::abs(double{last.hinged.back().angle} - state.angle) < tolerance;
+    if (again) state.angle = double{last.hinged.back().angle};
+  }
+  HingedFit& fit = fits[static_cast<std::size_t>(index)];
+  fit.open(brick, time, state, tolerance, again);
+  return fit;
 }
 
 void Recorder::Open::take_kinks() {
   for (const Kink& kink : frame.kinks) {
     if (!is_finite(kink.before) || !is_finite(kink.after)) continue;
-    const bool moved = slot[static_cast<std::size_t>(kink.brick)] != kClosed;
-    HingedFit& fit = hinged_fit(kink.brick, kink.time, kink.after);
-    if (moved) fit.add_kink(kink, store.tracks);
+    const std::int32_t index = slot[static_cast<std::size_t>(kink.brick)];
+    if (index == kClosed) {
+      HingedFit& fit = begin(kink.brick, kink.time, kink.after);
+      fit.kinked = fit.seen = step;
+      continue;
+    }
+    HingedFit& fit = fits[static_cast<std::size_t>(index)];
+    if (fit.paused()) {
+      fit.resume(kink.time, store.tracks);
+      ++moving;
+    }
+    fit.add_kink(kink, time_step, store.tracks);
     fit.kinked = fit.seen = step;
   }
 }
 
+// A brick that moves again without a jump of its own began at the step's beginning, accelerated as it is now.
+void Recorder::Open::wake(const HingedMotion& motion) {
+  const double time = frame.time - time_step;
+  const std::int32_t index = slot[static_cast<std::size_t>(motion.brick)];
+  if (index == kClosed) {
+    double angle = 0.0;
+    const std::int32_t before = store.tracks.last_of(motion.brick);
+    if (before != TrackStore::kNone) {
+      store.tracks.read(static_cast<std::size_t>(before), last);
+      angle = last.hinged.empty() ? 0.0 : double{last.hinged.back().angle};
+    }
+    begin(motion.brick, time, {angle, 0.0, motion.state.acceleration});
+  } else {
+    fits[static_cast<std::size_t>(index)].resume(time, store.tracks);
+    ++moving;
+  }
+}
+
 void Recorder::Open::take_hinged() {
+  std::int64_t falling = 0;
   for (const HingedMotion& motion : frame.hinged) {
     if (!is_finite(motion.state)) continue;
-    const std::int32_t index = slot[static_cast<std::size_t>(motion.brick)];
-    if (index == kClosed) {
-      const HingedState before = last_state(motion.brick);
-      if (motion.phase != Phase::falling && std::abs(motion.state.angle - before.angle) < 1e-7) continue;
-      // It woke without a jump of its own: at the step's beginning, and as it is accelerated now.
-      hinged_fit(motion.brick, frame.time - time_step, {before.angle, 0.0, motion.state.acceleration});
+    std::int32_t index = slot[static_cast<std::size_t>(motion.brick)];
+    if (index == kClosed || fits[static_cast<std::size_t>(index)].paused()) {
+      if (motion.phase != Phase::falling) continue;
+      wake(motion);
+      index = slot[static_cast<std::size_t>(motion.brick)];
     }
-    HingedFit& fit = hinged_fit(motion.brick, frame.time, motion.state);
-    if (fit.kinked != step || !fit.at(frame.time)) fit.add(frame.time, motion.state, store.tracks);
-    // One that rests now is closed as one that was not seen.
-    fit.seen = motion.phase == Phase::falling ? step : step - 1;
-  }
-}
-
-void Recorder::Open::close_absent() {
-  for (std::size_t i = 0; i < moving;) {
-    if (hinged[i].seen == step) {
-      ++i;
+    HingedFit& fit = fits[static_cast<std::size_t>(index)];
+    fit.seen = step;
+    if (motion.phase != Phase::falling) {
+      fit.pause(frame.time, motion.state, store.tracks);
+      --moving;
     } else {
-      close(i, true);
+      ++falling;
+      if (fit.kinked != step || !fit.at(frame.time)) fit.add(frame.time, motion.state, store.tracks);
     }
+  }
+  if (falling != moving) pause_absent();
+}
+
+void Recorder::Open::pause_absent() {
+  for (HingedFit& fit : fits) {
+    if (!fit.is_open() || fit.paused() || fit.seen == step) continue;
+    fit.pause();
+    --moving;
   }
 }
 
-void Recorder::Open::close(std::size_t index, bool still) {
-  slot[static_cast<std::size_t>(hinged[index].brick())] = kClosed;
-  hinged[index].close(still, store.tracks);
-  --moving;
-  if (index == moving) return;
-  std::swap(hinged[index], hinged[moving]);
-  slot[static_cast<std::size_t>(hinged[index].brick())] = static_cast<std::int32_t>(index);
+void Recorder::Open::close_long_paused() {
+  for (HingedFit& fit : fits) {
+    if (fit.is_open() && fit.paused() && fit.paused_at() < frame.time - kPatience) close(fit, true);
+  }
+}
+
+void Recorder::Open::close(HingedFit& fit, bool still) {
+  std::int32_t& index = slot[static_cast<std::size_t>(fit.brick())];
+  unused.push_back(index);
+  index = kClosed;
+  if (!fit.paused()) --moving;
+  fit.close(still, store.tracks);
 }
 
 // Every stride-th step; when there are too many, every second one goes.
@@ -146,7 +193,7 @@ void Recorder::take(const Model& model) {
   ++open.step;
   open.take_kinks();
   open.take_hinged();
-  open.close_absent();
+  if (open.step % kStepsBetweenCloses == 0) open.close_long_paused();
   for (const Event& event : model.events()) open.store.add_event(event);
   open.take_energy(model.step_count());
   open.take_hash(model);
@@ -154,7 +201,9 @@ void Recorder::take(const Model& model) {
 }
 
 void Recorder::finish(RunEnd end) {
-  while (open_->moving > 0) open_->close(open_->moving - 1, false);
+  for (HingedFit& fit : open_->fits) {
+    if (fit.is_open()) open_->close(fit, fit.paused());
+  }
   recording_.store_->time = std::max(recording_.store_->time, end.time);
   recording_.store_->end = std::move(end);
 }

@@ -96,18 +96,47 @@ TEST_CASE("the velocity of a brick is the derivative of its position") {
 
 TEST_CASE("a brick that is woken again has a track for each motion and rests between them") {
   Motion first{0, {{0.01, 0.0, 2.0, -50.0, 0.0, 0.0, 10.0}}, 0.05};
-  Motion second{0, {{0.2003, first.at(0.05).angle, 3.0, 10.0, 0.0, 0.0, 10.0}}, 0.26};
+  Motion second{0, {{0.5003, first.at(0.05).angle, 3.0, 10.0, 0.0, 0.0, 10.0}}, 0.56};
   HingedScript script({first, second}, 0.0005);
   const Recording recording = record(row(1), script);
   std::vector<Track> tracks;
   recording.tracks_of(0, tracks);
   REQUIRE(tracks.size() == 2);
   CHECK(tracks[0].start == 0.01);
-  CHECK(tracks[1].start == 0.2003);
+  CHECK(tracks[1].start == 0.5003);
   CHECK(recording.at(0, 0.1).phase == Phase::resting);
   CHECK(recording.at(0, 0.1).hinge.angle == doctest::Approx(first.at(0.05).angle).epsilon(1e-6));
   CHECK(worst_corner(recording, first, 0.01, 0.05, 2000) <= 0.002);
-  CHECK(worst_corner(recording, second, 0.2003, 0.26, 2000) <= 0.002);
+  CHECK(worst_corner(recording, second, 0.5003, 0.56, 2000) <= 0.002);
+}
+
+TEST_CASE("a brick that rests for a moment goes on in the same track") {
+  Motion motion{0, {{0.01, 0.0, 2.0, -50.0, 0.0, 0.0, 10.0}}, 0.05};
+  Motion later{0, {{0.1503, motion.at(0.05).angle, 3.0, 10.0, 0.0, 0.0, 10.0}}, 0.21};
+  HingedScript script({motion, later}, 0.0005);
+  const Recording recording = record(row(1), script);
+  CHECK(recording.track_count() == 1);
+  CHECK(worst_corner(recording, motion, 0.01, 0.1503, 4000) <= 0.002);
+  CHECK(worst_corner(recording, later, 0.1503, 0.21, 2000) <= 0.002);
+}
+
+TEST_CASE("a brick that is woken again and again to move less than the tolerance has one track") {
+  // The tolerance is 0.002 * 7.5 mm over 48.6 mm: 0.31 mrad.
+  std::vector<Motion> motions = {{0, {{0.01, 0.0, 2.0, -50.0, 0.0, 0.0, 10.0}}, 0.05}};
+  for (int i = 1; i < 4; ++i) motions.push_back({0, {{0.5 * i, motions.back().at(1e9).angle, 0.01, 0.0, 0.0, 0.0, 10.0}}, 0.5 * i + 0.005});
+  HingedScript script(motions, 0.0005);
+  const Recording recording = record(row(1), script);
+  CHECK(recording.track_count() == 1);
+  for (const Motion& motion : motions) CHECK(worst_corner(recording, motion, motion.parts[0].start, motion.end + 0.2, 500) <= 0.002);
+}
+
+TEST_CASE("a brick that is woken again and again to move further and further is followed") {
+  std::vector<Motion> motions = {{0, {{0.01, 0.0, 2.0, -50.0, 0.0, 0.0, 10.0}}, 0.05}};
+  for (int i = 1; i < 30; ++i)
+    motions.push_back({0, {{0.5 * i, motions.back().at(1e9).angle, 0.02, 0.0, 0.0, 0.0, 10.0}}, 0.5 * i + 0.005});
+  HingedScript script(motions, 0.0005);
+  const Recording recording = record(row(1), script);
+  for (const Motion& motion : motions) CHECK(worst_corner(recording, motion, motion.parts[0].start, motion.end + 0.2, 500) <= 0.002);
 }
 
 TEST_CASE("a brick that falls back stands again") {
