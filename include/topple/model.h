@@ -124,7 +124,16 @@ struct PivotConfig {
   double pulse = 0.010;  ///< How long the force of a `report` hit acts [s].
 };
 
+// ---- Level 2: the cooperative chain ----
+
+struct HingeConfig {
+  // affects results
+  double time_step = 0.004;  ///< How often the motion is read; events and impacts are located inside it [s].
+  /// What a brick may still move when it goes to rest, and what the wave may be wrong by for it: a fraction of its thickness.
+  double rest_tolerance = 0.002;
+};
+
 /// Choosing the config chooses the model.
-using ModelConfig = std::variant<PivotConfig>;
+using ModelConfig = std::variant<PivotConfig, HingeConfig>;
 
 }  // namespace topple

@@ -1,0 +1,146 @@
+#include "model/hinge/hinge_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/hash.h"
+#include "model/hinge/chain.h"
+
+namespace topple {
+
+namespace {
+
+class HingeModel final : public Model {
+ public:
+  HingeModel(HingeScene scene, double time_step) : scene_(std::move(scene)), time_step_(time_step) {}
+
+  void add_chain(std::vector<Push> pushes) { chains_.emplace_back(scene_, std::move(pushes)); }
+
+  Status step() override;
+  std::int64_t step_count() const override { return step_count_; }
+  double time_step() const override { return time_step_; }
+  void read(Frame& out) const override;
+  std::span<const Event> events() const override { return now_.events; }
+  std::span<const Contact> contacts() const override { return now_.contacts; }
+  std::uint64_t hash() const override { return hash_.value(); }
+
+ private:
+  HingeScene scene_;
+  double time_step_;
+  std::vector<Chain> chains_;
+  std::int64_t step_count_ = 0;
+  Happenings now_;
+  std::vector<HingedMotion> moved_;
+  double settled_ = 0.0;
+  double work_ = 0.0;
+  Hash hash_;
+};
+
+Status HingeModel::step() {
+  const double until = static_cast<double>(++step_count_) * time_step_;
+  now_.clear();
+  bool running = false;
+  for (Chain& chain : chains_) {
+    if (chain.done()) continue;
+    chain.advance(until, now_);
+    if (!chain.finite()) return {Progress::not_finite, chain.front()};
+    running = running || !chain.done();
+  }
+  settled_ += now_.settled;
+  work_ += now_.work;
+  if (!std::is_sorted(now_.events.begin(), now_.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; })) {
+    std::stable_sort(now_.events.begin(), now_.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  }
+  moved_.assign(now_.stopped.begin(), now_.stopped.end());
+  for (const Chain& chain : chains_) chain.read(moved_);
+  for (const HingedMotion& motion : moved_) {
+    hash_.add(static_cast<std::uint64_t>(motion.brick));
+    hash_.add(motion.state.angle);
+    hash_.add(motion.state.rate);
+  }
+  return {running ? Progress::running : Progress::at_rest, kNoBrick};
+}
+
+void HingeModel::read(Frame& out) const {
+  out.time = static_cast<double>(step_count_) * time_step_;
+  out.hinged.assign(moved_.begin(), moved_.end());
+  out.free.clear();
+  out.kinks.assign(now_.kinks.begin(), now_.kinks.end());
+  out.energy = {0.0, settled_, work_};
+  for (const Chain& chain : chains_) {
+    const Energy energy = chain.energy();
+    out.energy.kinetic += energy.kinetic;
+    out.energy.potential += energy.potential;
+  }
+}
+
+void add_line(std::string& lines, const std::string& line) {
+  if (!lines.empty()) lines += '\n';
+  lines += line;
+}
+
+void check_push(const Push& push, std::string& problems) {
+  double strength = 0.0;
+  if (const auto* speed = std::get_if<AngularSpeedPush>(&push.how)) strength = speed->angular_speed;
+  if (const auto* force = std::get_if<ForcePush>(&push.how)) strength = force->force;
+  if (const auto* blow = std::get_if<ImpulsePush>(&push.how)) strength = blow->impulse;
+  if (strength >= 0.0) return;
+  add_line(problems, std::string("hinge: the push on brick ") + std::to_string(push.brick) +
+                         " is backwards; hinge turns bricks about their toes only; rigid can");
+}
+
+// Two pushed bricks in one row would make two waves that meet.
+void check_rows(const std::vector<Link>& links, const std::vector<BrickId>& pushed, std::string& problems) {
+  std::vector<BrickId> wave_of(links.size(), kNoBrick);
+  for (const BrickId start : pushed) {
+    BrickId id = start;
+    while (id != kNoBrick && wave_of[static_cast<std::size_t>(id)] == kNoBrick) {
+      wave_of[static_cast<std::size_t>(id)] = start;
+      id = links[static_cast<std::size_t>(id)].next;
+    }
+    if (id == kNoBrick || wave_of[static_cast<std::size_t>(id)] == start) continue;
+    add_line(problems, std::string("hinge: the waves from bricks ") + std::to_string(wave_of[static_cast<std::size_t>(id)]) + " and " +
+                           std::to_string(start) + " run in one row; hinge follows one pushed brick a row; rigid can");
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const HingeConfig& config) {
+  std::string problems;
+  if (!(config.time_step > 0.0 && config.time_step <= 1.0)) {
+    add_line(problems, std::string("hinge: time_step_s = ") + std::to_string(config.time_step) + " is outside 0 to 1");
+  }
+  if (!(config.rest_tolerance > 0.0 && config.rest_tolerance <= 0.1)) {
+    add_line(problems, std::string("hinge: rest_tolerance = ") + std::to_string(config.rest_tolerance) + " is outside 0 to 0.1");
+  }
+  for (const Push& push : layout.pushes) check_push(push, problems);
+  HingeScene scene;
+  scene.layout = &layout;
+  Result<std::vector<Link>> links = find_links(layout);
+  if (!links) add_line(problems, links.error().message);
+  if (!problems.empty()) return failure(problems);
+  scene.links = std::move(*links);
+
+  std::vector<BrickId> pushed;
+  for (const Push& push : layout.pushes) pushed.push_back(push.brick);
+  std::sort(pushed.begin(), pushed.end());
+  pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
+  check_rows(scene.links, pushed, problems);
+  if (!problems.empty()) return failure(problems);
+
+  scene.rest_tolerance = config.rest_tolerance;
+  scene.time_step = config.time_step;
+  scene.angles.resize(layout.bricks.size(), 0.0F);
+  auto model = std::make_unique<HingeModel>(std::move(scene), config.time_step);
+  for (const BrickId brick : pushed) {
+    std::vector<Push> pushes;
+    std::copy_if(layout.pushes.begin(), layout.pushes.end(), std::back_inserter(pushes), [&](const Push& p) { return p.brick == brick; });
+    std::stable_sort(pushes.begin(), pushes.end(), [](const Push& a, const Push& b) { return a.at < b.at; });
+    model->add_chain(std::move(pushes));
+  }
+  return model;
+}
+
+}  // namespace topple

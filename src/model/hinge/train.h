@@ -1,0 +1,82 @@
+/// The train: the bricks that move together behind one front, as the cooperative chain of [vanLeeuwen2010] sees them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "topple/base.h"
+
+namespace topple {
+
+/// One brick of a train, and how it leans on the brick ahead of it.
+struct TrainBrick {
+  BrickId id = kNoBrick;
+  bool on_heel = false;  ///< Its front face rests on the rear bottom edge of the brick ahead, not its top edge on that one's rear face.
+  bool arrived = false;  ///< Its tilt has passed 10 degrees.
+  double inertia = 0.0;      ///< About its toe [kg m^2].
+  double torque_sin = 0.0;   ///< Torque about the toe = torque_sin sin(angle) + torque_cos cos(angle) [N m].
+  double torque_cos = 0.0;   ///< [N m]
+  double height = 0.0;       ///< [m]
+  double thickness = 0.0;    ///< [m]
+  // How it leans on the brick ahead; without meaning for the front.
+  double pitch = 0.0;            ///< Toe to toe, as a fraction of its height.
+  double thickness_ahead = 0.0;  ///< As a fraction of its height.
+  double friction = 0.0;         ///< Brick on brick.
+  // Where it was when the train was placed last.
+  double angle = 0.0;      ///< [rad]
+  double ratio = 1.0;      ///< d angle / d front angle.
+  double curvature = 0.0;  ///< d ratio / d front angle [1/rad].
+};
+
+/// What the whole train is to its front brick: inertia x acceleration = torque - coupling x rate^2.
+struct FrontView {
+  double inertia = 0.0;   ///< [kg m^2]
+  double torque = 0.0;    ///< [N m]
+  double coupling = 0.0;  ///< [kg m^2/rad]
+
+  double acceleration(double rate) const { return (torque - coupling * rate * rate) / inertia; }
+};
+
+class Train {
+ public:
+  bool empty() const { return bricks_.size() == first_; }
+  std::size_t size() const { return bricks_.size() - first_; }
+  /// Bricks from the front (0) to the back.
+  TrainBrick& at(std::size_t index) { return bricks_[bricks_.size() - 1 - index]; }
+  const TrainBrick& at(std::size_t index) const { return bricks_[bricks_.size() - 1 - index]; }
+
+  void clear();
+  void add_front(const TrainBrick& brick) { bricks_.push_back(brick); }
+  void drop_front() { bricks_.pop_back(); }
+
+  /// The train at an angle of its front; `direction` is +1 where it falls, -1 where it returns, which turns the friction round.
+  FrontView view(double front_angle, double direction) const;
+
+  /// The same, and writes angle, ratio and curvature of every brick.
+  FrontView place(double front_angle, double direction);
+
+  /// The angle of brick `index` at an angle of the front [rad].
+  double angle_of(std::size_t index, double front_angle) const;
+
+  /// How far each brick is from turning over from its edge to its heel, (pitch cos(angle ahead) - thickness ahead) / height, from the
+  /// front (which has none) to brick out.size() - 1: > 0 where it leans on its edge, < 0 on its heel.
+  void edges(double front_angle, std::span<double> out) const;
+
+  /// Momentum that an impact keeps, taken about the front brick [kg m^2/s]: the rates are given, the arms are those of where the
+  /// train was placed last.
+  double front_momentum(std::span<const double> rates, double direction) const;
+
+  /// Upper bound of what the last brick can still turn while the front goes on to the floor [rad].
+  double last_travel(double front_angle) const;
+
+  /// Takes the last brick out. It leans on the new last one from then on with the weight of all those behind it.
+  TrainBrick drop_last(double direction);
+
+ private:
+  std::vector<TrainBrick> bricks_;  ///< The front is the last element, so that a new front is appended.
+  std::size_t first_ = 0;           ///< Index of the last brick of the train in `bricks_`.
+  double load_ = 0.0;               ///< Torque with which the resting bricks behind turn the last brick of the train [N m].
+};
+
+}  // namespace topple
