@@ -13,15 +13,16 @@ USES = {
     "layout": ["base"],
     "model": ["layout"],
     "pivot": ["model"],
+    "hinge": ["model"],
     "recording": ["model"],
-    "run": ["recording", "pivot"],
+    "run": ["recording", "pivot", "hinge"],
     "measure": ["recording"],
     "export": ["recording", "measure"],
     "all": ["run", "measure", "export"],  # include/topple/topple.h
     "apps": ["all"],
 }
-MODELS = ["pivot"]
-CORE = ["base", "layout", "model", "pivot", "recording", "run", "measure"]
+MODELS = ["pivot", "hinge"]
+CORE = ["base", "layout", "model", "pivot", "hinge", "recording", "run", "measure"]
 
 # Third parties, and the operating system, by the chapter that may have them.
 FOREIGN = {

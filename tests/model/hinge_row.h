@@ -13,13 +13,13 @@ namespace topple {
 
 struct RowPlan {
   int count = 100;
-  double height = 0.048;     ///< [m]
-  double thickness = 0.0075; ///< [m]
-  double gap = 0.015;        ///< [m]
+  double height = 0.048;      ///< [m]
+  double thickness = 0.0075;  ///< [m]
+  double gap = 0.015;         ///< [m]
   double friction = 0.2;
-  double growth = 1.0;  ///< Each brick, and the gap after it, is so many times the one before.
-  double jitter = 0.0;  ///< Gaps differ by up to this fraction, in a fixed irregular way.
-  double push = 8.0;    ///< Of the first brick [rad/s].
+  double growth = 1.0;    ///< Each brick, and the gap after it, is so many times the one before.
+  double jitter = 0.0;    ///< Gaps differ by up to this fraction, in a fixed irregular way.
+  double push = 8.0;      ///< Of the first brick [rad/s].
   double gravity = 9.81;  ///< [m/s^2]
 };
 
@@ -59,9 +59,9 @@ struct HingeRun {
   std::vector<double> arrived;  ///< [s]
   std::vector<double> rest;     ///< The angle at which each brick went to rest last; not a number if it did not [rad].
   std::vector<Event> events;
-  double duration = 0.0;      ///< [s]
-  double most_rise = 0.0;     ///< The largest rise of kinetic + potential energy - push work between two steps in order [J].
-  double released = 0.0;      ///< The largest potential energy released plus push work [J].
+  double duration = 0.0;   ///< [s]
+  double most_rise = 0.0;  ///< The largest rise of kinetic + potential energy - push work between two steps in order [J].
+  double released = 0.0;   ///< The largest potential energy released plus push work [J].
   std::size_t most_moving = 0;
   std::uint64_t hash = 0;
   Progress progress = Progress::running;

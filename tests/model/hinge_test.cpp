@@ -100,8 +100,8 @@ TEST_CASE("energy_never_rises_by_more_than_the_bound_on_resting_bricks") {
   // that at its centre of mass; those behind it add a geometric series. So the sum may seem to rise by about tolerance x m g d, here a
   // thousandth of what one falling brick releases.
   for (const RowPlan& plan : {RowPlan{.count = 60, .gap = 0.0165}, RowPlan{.count = 60, .gap = 0.0075, .friction = 0.0, .jitter = 0.5},
-                              RowPlan{.count = 60, .gap = 0.03, .friction = 0.5, .jitter = 0.1}, RowPlan{.count = 25, .gap = 0.012, .growth = 1.1},
-                              RowPlan{.count = 40, .gap = 0.0075, .push = 3.7}}) {
+                              RowPlan{.count = 60, .gap = 0.03, .friction = 0.5, .jitter = 0.1},
+                              RowPlan{.count = 25, .gap = 0.012, .growth = 1.1}, RowPlan{.count = 40, .gap = 0.0075, .push = 3.7}}) {
     const Layout layout = make_row(plan);
     const HingeRun run = run_hinge(layout, {.time_step = 0.0005});
     CAPTURE(plan.gap);
@@ -112,8 +112,8 @@ TEST_CASE("energy_never_rises_by_more_than_the_bound_on_resting_bricks") {
 }
 
 TEST_CASE("a_row_of_growing_dominoes_falls_to_its_last_brick") {
-  // Thirteen bricks, each 1.5 times the one before, the first 5 mm high: the last is 649 mm. [vanLeeuwen2013] finds that bricks of a tenth of
-  // their height in thickness can grow by up to about twice.
+  // Thirteen bricks, each 1.5 times the one before, the first 5 mm high: the last is 649 mm. [vanLeeuwen2013] finds that bricks of a tenth
+  // of their height in thickness can grow by up to about twice.
   const RowPlan plan{.count = 13, .height = 0.005, .thickness = 0.0005, .gap = 0.0025, .friction = 0.1, .growth = 1.5, .push = 60.0};
   const Layout layout = make_row(plan);
   const HingeRun run = run_hinge(layout);

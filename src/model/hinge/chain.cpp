@@ -279,7 +279,8 @@ void Chain::add_kinks(Happenings& out) {
     const TrainBrick& brick = train_.at(train_.size() - 1 - i);
     const HingedState before = i < before_.size() ? before_[i] : HingedState{};
     const HingedState after = state_of(brick);
-    const double jump = std::fabs(after.rate - before.rate) * step + 0.5 * std::fabs(after.acceleration - before.acceleration) * step * step;
+    const double jump =
+        std::fabs(after.rate - before.rate) * step + 0.5 * std::fabs(after.acceleration - before.acceleration) * step * step;
     if (jump * brick.height > 0.1 * scene_->rest_tolerance * brick.thickness) out.kinks.push_back({brick.id, state_.time, before, after});
   }
 }

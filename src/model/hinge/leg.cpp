@@ -10,7 +10,8 @@ namespace {
 // ---- In angle: E = rate^2 obeys the linear equation dE/dth = 2 (torque - coupling E) / inertia ----
 
 // Lobatto's five points on [0, 1] and the integrals from 0 to each of them of the polynomial through five values (Lobatto IIIA, order 8)
-// [Hairer1993], table 5.7 gives four; these are the integrals of the Lagrange polynomials of the five points.
+//:
+// the integrals of the Lagrange polynomials of those points.
 constexpr double kNode = 0.32732683535398857;  // sqrt(3/7) / 2
 constexpr std::array<double, 5> kNodes = {0.0, 0.5 - kNode, 0.5, 0.5 + kNode, 1.0};
 using Weights = std::array<std::array<double, 5>, 5>;

@@ -131,9 +131,11 @@ class Search {
 void Search::check_stances() {
   for (BrickId id = 0; id < layout_.brick_count() && !full(); ++id) {
     if (brick(id).stance != Stance::standing) {
-      problem("hinge: brick " + std::to_string(id) + " does not stand on its smallest face; hinge turns standing bricks about their toes; rigid can");
+      problem("hinge: brick " + std::to_string(id) +
+              " does not stand on its smallest face; hinge turns standing bricks about their toes; rigid can");
     } else if (brick(id).foot.z != 0.0) {
-      problem("hinge: brick " + std::to_string(id) + " stands " + millimetres(brick(id).foot.z) + " above the floor; hinge knows bricks on the floor only; rigid can");
+      problem("hinge: brick " + std::to_string(id) + " stands " + millimetres(brick(id).foot.z) +
+              " above the floor; hinge knows bricks on the floor only; rigid can");
     }
   }
 }
@@ -207,7 +209,8 @@ void Search::check_pair(BrickId id) {
   const std::string who = "hinge: brick " + std::to_string(l.next) + " ahead of brick " + std::to_string(id);
   const double turn = arc_tangent(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
   if (std::fabs(turn) > kLargestTurn + 1e-9) {
-    return problem(who + " is turned by " + number(std::round(turn * 18000.0 / kPi) / 100.0) + " deg against it; hinge follows at most 5 deg; rigid can");
+    return problem(who + " is turned by " + number(std::round(turn * 18000.0 / kPi) / 100.0) +
+                   " deg against it; hinge follows at most 5 deg; rigid can");
   }
   const double length = std::sqrt((a.x + b.x) * (a.x + b.x) + (a.y + b.y) * (a.y + b.y));
   const Axis mean{(a.x + b.x) / length, (a.y + b.y) / length};
@@ -223,7 +226,8 @@ void Search::check_pair(BrickId id) {
   if (gap >= height) {
     l.next = kNoBrick;
   } else if (gap < kLeastGap * height) {
-    problem(who + " stands " + millimetres(gap) + " from it; bricks that touch move as one block, hinge needs a gap of 0.5 % of the height; rigid can");
+    problem(who + " stands " + millimetres(gap) +
+            " from it; bricks that touch move as one block, hinge needs a gap of 0.5 % of the height; rigid can");
   } else if (std::sqrt(height * height - gap * gap) > ahead.height) {
     problem(who + " is so low that it is hit above its top; rigid can");
   } else if (l.pitch * l.pitch >= height * height + ahead.thickness * ahead.thickness) {

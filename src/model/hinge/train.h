@@ -12,13 +12,13 @@ namespace topple {
 /// One brick of a train, and how it leans on the brick ahead of it.
 struct TrainBrick {
   BrickId id = kNoBrick;
-  bool on_heel = false;  ///< Its front face rests on the rear bottom edge of the brick ahead, not its top edge on that one's rear face.
-  bool arrived = false;  ///< Its tilt has passed 10 degrees.
-  double inertia = 0.0;      ///< About its toe [kg m^2].
-  double torque_sin = 0.0;   ///< Torque about the toe = torque_sin sin(angle) + torque_cos cos(angle) [N m].
-  double torque_cos = 0.0;   ///< [N m]
-  double height = 0.0;       ///< [m]
-  double thickness = 0.0;    ///< [m]
+  bool on_heel = false;     ///< Its front face rests on the rear bottom edge of the brick ahead, not its top edge on that one's rear face.
+  bool arrived = false;     ///< Its tilt has passed 10 degrees.
+  double inertia = 0.0;     ///< About its toe [kg m^2].
+  double torque_sin = 0.0;  ///< Torque about the toe = torque_sin sin(angle) + torque_cos cos(angle) [N m].
+  double torque_cos = 0.0;  ///< [N m]
+  double height = 0.0;      ///< [m]
+  double thickness = 0.0;   ///< [m]
   // How it leans on the brick ahead; without meaning for the front.
   double pitch = 0.0;            ///< Toe to toe, as a fraction of its height.
   double thickness_ahead = 0.0;  ///< As a fraction of its height.
