@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/hinge/hinge_model.h"
 #include "model/pivot/pivot_model.h"
 #include "topple/run.h"
 
@@ -47,7 +48,8 @@ class Settings {
   Result<void> finish(std::string_view model) {
     for (std::size_t i = 0; i < settings_.size(); ++i) {
       if (used_[i] || settings_[i].key == "name") continue;
-      add(settings_[i].where + ": model." + settings_[i].key + ": model \"" + std::string(model) + "\" has no such setting; it has " + known_);
+      add(settings_[i].where + ": model." + settings_[i].key + ": model \"" + std::string(model) + "\" has no such setting; it has " +
+          known_);
     }
     if (problems_.empty()) return {};
     return failure(problems_);
@@ -101,12 +103,21 @@ Result<ModelConfig> pivot_config(const Layout& layout) {
                   config.integrator);
   settings.choice("inertia", std::array{std::pair{"report"sv, InertiaRule::report}, std::pair{"pivot"sv, InertiaRule::pivot}},
                   config.inertia);
-  settings.choice("hit",
-                  std::array{std::pair{"momentum"sv, HitRule::momentum}, std::pair{"report"sv, HitRule::report},
-                             std::pair{"same"sv, HitRule::same}},
-                  config.hit);
+  settings.choice(
+      "hit",
+      std::array{std::pair{"momentum"sv, HitRule::momentum}, std::pair{"report"sv, HitRule::report}, std::pair{"same"sv, HitRule::same}},
+      config.hit);
   settings.number("pulse_ms", 0.001, 0.001, 10000.0, config.pulse);
   if (auto checked = settings.finish("pivot"); !checked) return std::unexpected(checked.error());
+  return config;
+}
+
+Result<ModelConfig> hinge_config(const Layout& layout) {
+  HingeConfig config;
+  Settings settings(layout.model);
+  settings.number("time_step_s", 1.0, 1e-6, 1.0, config.time_step);
+  settings.number("rest_tolerance", 1.0, 1e-9, 0.1, config.rest_tolerance);
+  if (auto checked = settings.finish("hinge"); !checked) return std::unexpected(checked.error());
   return config;
 }
 
@@ -115,11 +126,13 @@ struct KnownModel {
   std::string_view name;
   Result<ModelConfig> (*read_config)(const Layout&);
 };
-constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}};
+constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}, KnownModel{"hinge", hinge_config}};
 
 // One overload a model.
 std::string_view name_of(const PivotConfig&) { return "pivot"; }
+std::string_view name_of(const HingeConfig&) { return "hinge"; }
 Result<std::unique_ptr<Model>> make(const Layout& layout, const PivotConfig& config) { return pivot::make_pivot_model(layout, config); }
+Result<std::unique_ptr<Model>> make(const Layout& layout, const HingeConfig& config) { return hinge::make_hinge_model(layout, config); }
 
 }  // namespace
 

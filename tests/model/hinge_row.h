@@ -69,7 +69,7 @@ struct HingeRun {
 
 inline HingeRun run_hinge(const Layout& layout, const HingeConfig& config = {}, double until = 1e9) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  auto model = make_hinge_model(layout, config);
+  auto model = hinge::make_hinge_model(layout, config);
   REQUIRE_MESSAGE(model.has_value(), (model ? std::string() : model.error().message));
   HingeRun run;
   run.struck.assign(layout.bricks.size(), kInfinity);

@@ -14,7 +14,7 @@ int count(const HingeRun& run, EventKind kind) {
 }
 
 std::string refusal(const Layout& layout, const HingeConfig& config = {}) {
-  auto model = make_hinge_model(layout, config);
+  auto model = hinge::make_hinge_model(layout, config);
   return model ? std::string() : model.error().message;
 }
 

@@ -7,7 +7,7 @@
 #include "base/trigonometry.h"
 #include "model/hinge/lean.h"
 
-namespace topple {
+namespace topple::hinge {
 
 namespace {
 
@@ -445,4 +445,4 @@ Energy Chain::energy() const {
   return energy;
 }
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -8,7 +8,7 @@
 #include "model/hinge/links.h"
 #include "topple/model.h"
 
-namespace topple {
+namespace topple::hinge {
 
 /// What all chains share. Nothing of it changes but where bricks came to rest.
 struct HingeScene {
@@ -126,4 +126,4 @@ class Chain {
   std::vector<double> edges_;
 };
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -4,7 +4,7 @@
 #include "base/trigonometry.h"
 #include "model/hinge/chain.h"
 
-namespace topple {
+namespace topple::hinge {
 
 namespace {
 
@@ -140,4 +140,4 @@ void Chain::begin_motion() {
   moving_ = falls || (state_.angle > 0.0 && backward.torque < 0.0 && backward.inertia > 0.0);
 }
 
-}  // namespace topple
+}  // namespace topple::hinge

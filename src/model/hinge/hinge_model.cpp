@@ -7,7 +7,7 @@
 #include "base/hash.h"
 #include "model/hinge/chain.h"
 
-namespace topple {
+namespace topple::hinge {
 
 namespace {
 
@@ -143,4 +143,4 @@ Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const Hing
   return model;
 }
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -5,9 +5,9 @@
 
 #include "topple/model.h"
 
-namespace topple {
+namespace topple::hinge {
 
 /// Refuses, in words, what a chain of hinges cannot do. The layout must outlive the model.
 Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const HingeConfig& config);
 
-}  // namespace topple
+}  // namespace topple::hinge

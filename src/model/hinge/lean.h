@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace topple {
+namespace topple::hinge {
 
 struct Lean {
   double sin_behind = 0.0;
@@ -52,4 +52,4 @@ inline Lean lean_on_heel(double p, double t, double sin_f, double cos_f) {
   return lean;
 }
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace topple {
+namespace topple::hinge {
 
 namespace {
 
@@ -239,4 +239,4 @@ Leg make_leg(const Train& train, const FrontState& start, const LegGoal& goal) {
   return make_slow_leg(train, start, goal);
 }
 
-}  // namespace topple
+}  // namespace topple::hinge

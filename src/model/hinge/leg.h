@@ -6,7 +6,7 @@
 
 #include "model/hinge/train.h"
 
-namespace topple {
+namespace topple::hinge {
 
 /// The front of a train at a moment.
 struct FrontState {
@@ -41,4 +41,4 @@ Leg make_leg(const Train& train, const FrontState& start, const LegGoal& goal);
 /// Only the second way. The plain one, to which the first is held by a test.
 Leg make_slow_leg(const Train& train, const FrontState& start, const LegGoal& goal);
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -8,7 +8,7 @@
 
 #include "base/trigonometry.h"
 
-namespace topple {
+namespace topple::hinge {
 
 namespace {
 
@@ -286,4 +286,4 @@ Result<std::vector<Link>> Search::run() {
 
 Result<std::vector<Link>> find_links(const Layout& layout) { return Search(layout).run(); }
 
-}  // namespace topple
+}  // namespace topple::hinge

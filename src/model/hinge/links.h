@@ -5,7 +5,7 @@
 
 #include "topple/layout.h"
 
-namespace topple {
+namespace topple::hinge {
 
 /// The brick ahead that a brick reaches when it falls.
 struct Link {
@@ -24,4 +24,4 @@ inline constexpr double kLeastGap = 0.005;
 /// One link a brick; or why this layout is beyond the chain, a line each problem (at most ten), naming the model that can.
 Result<std::vector<Link>> find_links(const Layout& layout);
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -6,7 +6,7 @@
 #include "base/trigonometry.h"
 #include "model/hinge/lean.h"
 
-namespace topple {
+namespace topple::hinge {
 
 namespace {
 
@@ -133,4 +133,4 @@ TrainBrick Train::drop_last(double direction) {
   return last;
 }
 
-}  // namespace topple
+}  // namespace topple::hinge

@@ -7,7 +7,7 @@
 
 #include "topple/base.h"
 
-namespace topple {
+namespace topple::hinge {
 
 /// One brick of a train, and how it leans on the brick ahead of it.
 struct TrainBrick {
@@ -79,4 +79,4 @@ class Train {
   double load_ = 0.0;               ///< Torque with which the resting bricks behind turn the last brick of the train [N m].
 };
 
-}  // namespace topple
+}  // namespace topple::hinge
