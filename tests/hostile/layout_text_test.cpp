@@ -89,6 +89,20 @@ TEST_CASE("control characters do not reach the terminal") {
               "xxxxxxxxxxx\"\n[[row]]\ncount = 3\npitch_mm = 24\n") == "t.toml:1:9: title: must have at most 1000 bytes, has 1001");
 }
 
+TEST_CASE("a table header without a key is refused in every kind of build") {
+  CHECK(wrong("[=]\n") == "t.toml:1:2: not TOML: while parsing key: expected bare key starting character or string delimiter, saw '='");
+  CHECK(wrong("[\x19[push]]\n") ==
+        "t.toml:1:2: not TOML: while parsing key: expected bare key starting character or string delimiter, saw '\\u0019'");
+  CHECK(wrong("[[.a]]\n") == "t.toml:1:3: not TOML: while parsing key: expected bare key starting character or string delimiter, saw '.'");
+}
+
+TEST_CASE("letters of any script are text in strings and comments, and no part of a bare key") {
+  CHECK(wrong("\xEF\xBB\xBB = 1\n") ==
+        "t.toml:1:1: not TOML: while parsing root table: expected keys, tables, whitespace or comments, saw '\xEF\xBB\xBB'");
+  CHECK(wrong("# \xEF\xBB\xBB\ntitle = \"\xEF\xBB\xBB \xEF\xB8\x8F\"\n[[row]]\ncount = 1\ngap_mm = 0 \xEF\xB8\x8F\n") ==
+        "t.toml:5:12: not TOML: while parsing key-value pair: expected a comment or whitespace, saw '\xEF\xB8\x8F'");
+}
+
 TEST_CASE("a list of a hundred thousand open brackets is refused") {
   CHECK(wrong("a = " + std::string(100'000, '[')) == "t.toml:1:37: nested more than 32 brackets deep");
 }
