@@ -59,7 +59,7 @@ function rounded(pen: CanvasRenderingContext2D, x: number, y: number, width: num
 
 function drawFront(pen: CanvasRenderingContext2D, { front, recording }: Loaded, x: (t: number) => number, look: StripLook, passed: boolean): void {
   const { height, colors } = look;
-  const y = (distance: number): number => height - 1 - (distance / (front.length || 1)) * (height - 14);
+  const y = (distance: number): number => height - 1 - (distance / (front.length || 1)) * (height - 20);
   const step = Math.max(1, Math.floor(front.time.length / (2 * look.width)));
   pen.beginPath();
   pen.moveTo(0, y(0));

@@ -89,7 +89,7 @@ function placeVertices(shader: WebGLProgramParametersWithUniforms): void {
 }
 
 export function brickMaterial(): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({ roughness: 0.36, metalness: 0, envMapIntensity: 1 });
+  const material = new MeshStandardMaterial({ roughness: 0.36, metalness: 0, fog: false });
   material.onBeforeCompile = (shader) => {
     placeVertices(shader);
     shader.vertexShader = shader.vertexShader

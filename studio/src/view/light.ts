@@ -19,8 +19,8 @@ export interface Mood {
   surroundings: number;
 }
 export const kMoods: Record<'light' | 'dark', Mood> = {
-  light: { sun: 3.1, sunColor: 0xffe3c2, sky: 1.75, skyColor: 0xdfe9ff, bounce: 0x9a8f80, surroundings: 0.3 },
-  dark: { sun: 2.5, sunColor: 0xffdcb4, sky: 0.75, skyColor: 0xc4d6ff, bounce: 0x2a2d33, surroundings: 0.22 },
+  light: { sun: 2.5, sunColor: 0xffe2c0, sky: 1.5, skyColor: 0xe4ecff, bounce: 0xb5a999, surroundings: 0.36 },
+  dark: { sun: 2.3, sunColor: 0xffdcb4, sky: 0.62, skyColor: 0xc4d6ff, bounce: 0x3a3d45, surroundings: 0.3 },
 };
 
 /** Breadth of the sun: how far its direction strays in a still. */
@@ -72,7 +72,7 @@ export class Light {
   placeSun(forward: Vector3): void {
     const ahead = new Vector3(forward.x, forward.y, 0).normalize();
     const left = new Vector3(-ahead.y, ahead.x, 0);
-    this.towardsSun.copy(ahead).multiplyScalar(0.62).addScaledVector(left, 0.72).setZ(0.78).normalize();
+    this.towardsSun.copy(ahead).multiplyScalar(0.42).addScaledVector(left, 0.8).setZ(0.72).normalize();
   }
 
   useLive(): void {
@@ -164,7 +164,7 @@ function fitTo(light: DirectionalLight, direction: Vector3, corners: Vector3[], 
   camera.far = distance + half.z + 4 * reach;
   camera.updateProjectionMatrix();
   const texel = Math.max(half.x, half.y) * 2 / light.shadow.mapSize.x;
-  light.shadow.normalBias = Math.min(0.004, 0.9 * texel);
+  light.shadow.normalBias = Math.min(0.004, 0.5 * texel);
   light.shadow.bias = -0.00012;
   light.target.updateMatrixWorld();
 }

@@ -164,8 +164,8 @@ export class Rig {
     const h = this.brickHeight;
     const ahead = new Vector3(Math.cos(spot.heading), Math.sin(spot.heading), 0);
     const side = new Vector3(-ahead.y, ahead.x, 0).multiplyScalar(Math.sign(this.sideOf(spot.place, new Vector3(-ahead.y, ahead.x, 0))));
-    const position = spot.place.clone().addScaledVector(ahead, 1.1 * h).addScaledVector(side, 0.95 * h).setZ(0.72 * h);
-    const target = spot.place.clone().addScaledVector(ahead, -2.2 * h).addScaledVector(side, 0.1 * h).setZ(0.45 * h);
+    const position = spot.place.clone().addScaledVector(ahead, 2.2 * h).addScaledVector(side, 1.25 * h).setZ(0.62 * h);
+    const target = spot.place.clone().addScaledVector(ahead, -4.5 * h).addScaledVector(side, -0.2 * h).setZ(0.42 * h);
     this.goTo({ position, target });
   }
 

@@ -17,7 +17,7 @@ export function spreadPoint(i: number): number[] {
 }
 
 /** Radius of the lens as a part of the distance to what is looked at. */
-const kLens = 0.0045;
+const kLens = 0.0032;
 
 export class Still {
   done = 0;

@@ -4,8 +4,8 @@ import { CircleGeometry, Color, Fog, Mesh, MeshStandardMaterial, type Scene } fr
 
 /** Linear-light colours that come out as the design's table and background after tone mapping. */
 export const kTableColors = {
-  light: { table: 0xb9b0a5, background: 0xd3cdc6 },
-  dark: { table: 0x3a3d45, background: 0x15171b },
+  light: { table: 0xb9b0a5, background: 0xc2bbb3 },
+  dark: { table: 0x33363d, background: 0x24272d },
 };
 
 export class Table {
@@ -34,7 +34,7 @@ export class Table {
     const size = 40 * (distance + extent);
     this.mesh.position.set(x, y, 0);
     this.mesh.scale.set(size, size, 1);
-    this.fog.near = 1.1 * distance + 0.8 * extent;
-    this.fog.far = 6 * distance + 4 * extent;
+    this.fog.near = distance;
+    this.fog.far = Math.max(3.2 * distance, distance + 1.5 * extent);
   }
 }

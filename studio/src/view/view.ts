@@ -17,6 +17,8 @@ export type Theme = 'light' | 'dark';
 
 /** Frames in a finished still, on a graphics card and drawn in software. */
 const kStillFrames = { card: 128, software: 40 };
+/** The ACES fit is made for a scene a little brighter than white paper. */
+const kExposure = 1 / 0.6;
 /** How long nothing must move before the still begins [s]. */
 const kPatience = 0.25;
 /** Bricks that frame the run: more would not change the picture. */
@@ -163,7 +165,7 @@ export class View {
   }
 
   private show(): void {
-    this.pass.show(this.live.texture, this.still.texture, this.share, 1);
+    this.pass.show(this.live.texture, this.still.texture, this.share, kExposure);
   }
 
   /** Averages a whole still at once; for pictures. */

@@ -1,0 +1,123 @@
+/** The page when something is missing or wrong, and at every size. */
+
+import { mkdir } from 'node:fs/promises';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { kOut, launch, makeRecording, recordingOf, serve, type Site } from './browser.ts';
+
+let browser: Browser;
+let site: Site;
+
+beforeAll(async () => {
+  const { bytes } = await recordingOf('studio/tests/page/row.toml', () => makeRecording({ count: 12 }));
+  site = await serve(bytes);
+  browser = await launch();
+  await mkdir(kOut, { recursive: true });
+});
+afterAll(async () => {
+  await browser?.close();
+  await site?.close();
+});
+
+describe('what cannot be shown is said in words', () => {
+  async function wordsFor(recording: Uint8Array | null): Promise<string> {
+    const other = await serve(recording);
+    const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
+    await page.goto(other.url);
+    await page.locator('.empty').waitFor();
+    const words = await page.locator('.empty').innerText();
+    await page.close();
+    await other.close();
+    return words;
+  }
+
+  test('no recording', async () => expect(await wordsFor(null)).toMatch(/No recording is open[\s\S]*Drop a .topple file/));
+
+  test('a foreign file', async () => {
+    expect(await wordsFor(new TextEncoder().encode('something else entirely'))).toMatch(/not a recording of Topple/);
+  });
+
+  test('a damaged file', async () => {
+    const bytes = makeRecording({ count: 5 });
+    bytes[400] ^= 1;
+    expect(await wordsFor(bytes)).toMatch(/Damaged in the piece \w{4} at byte \d+/);
+  });
+
+  test('a file that is dropped takes the place of what was open, a bad one leaves it', async () => {
+    const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
+    await page.goto(`${site.url}?still=off`);
+    await page.waitForFunction(() => window.topple?.loaded);
+    const give = (name: string, bytes: Uint8Array): Promise<void> =>
+      page.getByLabel('Recording file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(bytes) });
+    await give('bad.topple', new TextEncoder().encode('TOPPLE01 and nothing more'));
+    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/What was open is untouched/);
+    expect(await page.evaluate(() => window.topple.bricks)).toBe(12);
+    await give('seven.topple', makeRecording({ count: 7 }));
+    await expect.poll(() => page.evaluate(() => window.topple.bricks)).toBe(7);
+    expect(await page.getByRole('alert').count()).toBe(0);
+    await page.close();
+  });
+
+  test('without WebGL a sentence and a plan stand in for the view; numbers, plots and playing still work', async () => {
+    const plain = await launch(false);
+    const page = await plain.newPage({ viewport: { width: 1100, height: 640 } });
+    await page.goto(site.url);
+    await page.waitForFunction(() => window.topple?.loaded);
+    expect(await page.locator('.plan [role=status]').innerText()).toMatch(/no WebGL 2\. Plots and numbers still work/);
+    await page.keyboard.press('End');
+    await expect.poll(() => page.locator('[data-test=read-out]').innerText()).toMatch(/12 \/ 12/);
+    await page.keyboard.press('n');
+    await expect.poll(() => page.locator('.u-wrap canvas').count()).toBe(3);
+    await expect.poll(() => page.evaluate(() => window.topple.drawnTilt(11))).toBeGreaterThan(1.5);
+    await page.screenshot({ path: `${kOut}/no-webgl.png` });
+    await plain.close();
+  });
+});
+
+describe('at every size', () => {
+  const sizes = [
+    [360, 640], [390, 844], [800, 600], [1000, 420], [1300, 700], [1920, 1080], [3840, 2160],
+  ];
+  test('nothing sticks out, and the view fills what is left', async () => {
+    const page = await browser.newPage({ viewport: { width: 360, height: 640 }, reducedMotion: 'reduce' });
+    await page.goto(`${site.url}?still=off`);
+    await page.waitForFunction(() => window.topple?.loaded);
+    for (const [width, height] of sizes) {
+      await page.setViewportSize({ width, height });
+      await expect
+        .poll(() =>
+          page.evaluate(() => {
+            const view = document.querySelector('.view')!;
+            const canvas = view.querySelector('canvas')!;
+            const root = document.documentElement;
+            const buttons = [...document.querySelectorAll('header button, footer button')].filter((b) => b.getClientRects().length > 0);
+            return {
+              wide: root.scrollWidth > innerWidth || document.body.scrollHeight > innerHeight,
+              view: view.clientWidth > 0.5 * innerWidth && view.clientHeight > 0.25 * innerHeight,
+              canvas: canvas.width >= view.clientWidth && canvas.height >= view.clientHeight,
+              cut: buttons.some((b) => b.getBoundingClientRect().right > innerWidth || b.getBoundingClientRect().bottom > innerHeight),
+            };
+          }),
+          { timeout: 20000 },
+        )
+        .toEqual({ wide: false, view: true, canvas: true, cut: false });
+    }
+    await page.close();
+  });
+
+  test.each([
+    [1440, 900, 'light'], [1440, 900, 'dark'], [390, 844, 'light'], [390, 844, 'dark'],
+  ] as const)('a picture to look at: %i x %i, %s', async (width, height, colorScheme) => {
+    const page = await browser.newPage({ viewport: { width, height }, colorScheme, reducedMotion: 'reduce' });
+    await page.goto(`${site.url}?still=off`);
+    await page.waitForFunction(() => window.topple?.loaded);
+    expect(await page.evaluate(() => document.documentElement.dataset.theme)).toBe(colorScheme);
+    await page.evaluate(() => {
+      window.topple.seek(0.45 * window.topple.duration);
+      window.topple.choose(6);
+    });
+    await page.waitForTimeout(300);
+    await page.screenshot({ path: `${kOut}/page-${width}-${colorScheme}.png` });
+    await page.close();
+  });
+});
