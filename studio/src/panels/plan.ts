@@ -15,7 +15,8 @@ export interface PlanFit {
   nearest(x: number, y: number): number;
 }
 
-const kMargin = 60;
+/** Around the plan [px]. */
+const kMargin = 40;
 
 export function planFit(recording: Recording, width: number, height: number): PlanFit {
   const { foot, count } = recording.bricks;
@@ -26,6 +27,11 @@ export function planFit(recording: Recording, width: number, height: number): Pl
     lowY = Math.min(lowY, foot[3 * b + 1]);
     highY = Math.max(highY, foot[3 * b + 1]);
   }
+  const reach = Math.max(...recording.kinds.map((kind) => kind.height)); // of a brick that has fallen over the edge
+  lowX -= reach;
+  highX += reach;
+  lowY -= reach;
+  highY += reach;
   const scale = Math.min(
     Math.max(40, width - 2 * kMargin) / Math.max(0.1, highX - lowX),
     Math.max(40, height - 2 * kMargin) / Math.max(0.1, highY - lowY),

@@ -34,6 +34,16 @@ const kPips = /* glsl */ `
   flat varying vec3 vAcross;
   flat varying vec3 vUp;
 
+  uniform float surroundings;
+
+  // What a brick mirrors towards r (world axes), and how much of it (Schlick's Fresnel term for plastic).
+  vec3 mirrored(vec3 r, float facing) {
+    float fresnel = 0.035 + 0.42 * pow(1.0 - facing, 5.0);
+    float box = smoothstep(0.55, 0.95, dot(r, vec3(-0.25, 0.2, 0.947)));
+    vec3 light = mix(vec3(0.30, 0.27, 0.24), vec3(0.62, 0.68, 0.78), smoothstep(-0.15, 0.45, r.z)) + 2.2 * box;
+    return fresnel * surroundings * light;
+  }
+
   vec3 linearFromSrgb(vec3 c) {
     return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, vec3(lessThanEqual(c, vec3(0.04045))));
   }
@@ -88,10 +98,15 @@ function placeVertices(shader: WebGLProgramParametersWithUniforms): void {
     .replace('#include <begin_vertex>', kTransformed);
 }
 
-export function brickMaterial(): MeshStandardMaterial {
+/**
+ * @param surroundings How bright the studio is that the bricks mirror: a soft box overhead and a pale table below. It is a few sums
+ *   rather than a picture of a room, whose filtering takes seconds where there is no graphics card.
+ */
+export function brickMaterial(surroundings: { value: number }): MeshStandardMaterial {
   const material = new MeshStandardMaterial({ roughness: 0.36, metalness: 0, fog: false });
   material.onBeforeCompile = (shader) => {
     placeVertices(shader);
+    shader.uniforms.surroundings = surroundings;
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', `#include <common>\n${kVertexVaryings}`)
       .replace('#include <beginnormal_vertex>', 'vec3 objectNormal = turned(iTurn, normal);');
@@ -119,6 +134,14 @@ export function brickMaterial(): MeshStandardMaterial {
       .replace(
         '#include <normal_fragment_maps>',
         '#include <normal_fragment_maps>\nnormal = normalize(normal + pips.z * vAcross + pips.w * vUp);',
+      )
+      .replace(
+        '#include <opaque_fragment>',
+        /* glsl */ `
+        vec3 towards = normalize(vViewPosition);
+        vec3 around = inverseTransformDirection(reflect(-towards, normal), viewMatrix);
+        outgoingLight += mirrored(around, clamp(dot(towards, normal), 0.0, 1.0));
+        #include <opaque_fragment>`,
       );
   };
   return material;

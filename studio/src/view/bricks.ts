@@ -12,6 +12,8 @@ const kRunGap = 64;
 
 export class BrickMesh {
   readonly mesh: Mesh;
+  /** How bright what the bricks mirror is. */
+  readonly surroundings = { value: 1 };
   private readonly geometry: InstancedBufferGeometry;
   private readonly position: InstancedBufferAttribute;
   private readonly turn: InstancedBufferAttribute;
@@ -35,7 +37,7 @@ export class BrickMesh {
     this.geometry.setAttribute('iColor', this.color);
     this.geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
     this.paint();
-    this.mesh = new Mesh(this.geometry, brickMaterial());
+    this.mesh = new Mesh(this.geometry, brickMaterial(this.surroundings));
     this.mesh.customDepthMaterial = brickDepthMaterial();
     this.mesh.frustumCulled = false;
     this.mesh.castShadow = true;

@@ -44,7 +44,7 @@ export function defaultDirection(points: readonly Vector3[]): Vector3 {
   const first = points[0];
   const last = points[points.length - 1];
   const along = (last.x - first.x) * axis.x + (last.y - first.y) * axis.y < 0 ? -1 : 1;
-  const azimuth = Math.atan2(-along * axis.y, -along * axis.x) + MathUtils.lerp(0.42, 1.0, axis.roundness);
+  const azimuth = Math.atan2(-along * axis.y, -along * axis.x) + MathUtils.lerp(0.6, 1.0, axis.roundness);
   const elevation = MathUtils.lerp(0.3, 0.62, Math.min(1, axis.roundness * 1.5));
   return new Vector3(Math.cos(azimuth) * Math.cos(elevation), Math.sin(azimuth) * Math.cos(elevation), -Math.sin(elevation));
 }

@@ -4,10 +4,9 @@
  */
 
 import {
-  DirectionalLight, HemisphereLight, Matrix4, PCFShadowMap, PMREMGenerator, Vector3,
+  DirectionalLight, HemisphereLight, Matrix4, PCFShadowMap, Vector3,
   type OrthographicCamera, type PerspectiveCamera, type Scene, type WebGLRenderer,
 } from 'three';
-import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
 
 /** Colours and strengths; linear, tuned by eye against the pictures of the design. */
 export interface Mood {
@@ -16,11 +15,12 @@ export interface Mood {
   sky: number;
   skyColor: number;
   bounce: number;
+  /** Of what is mirrored in the bricks. */
   surroundings: number;
 }
 export const kMoods: Record<'light' | 'dark', Mood> = {
-  light: { sun: 2.5, sunColor: 0xffe2c0, sky: 1.5, skyColor: 0xe4ecff, bounce: 0xb5a999, surroundings: 0.36 },
-  dark: { sun: 2.3, sunColor: 0xffdcb4, sky: 0.62, skyColor: 0xc4d6ff, bounce: 0x3a3d45, surroundings: 0.3 },
+  light: { sun: 2.6, sunColor: 0xffe2c0, sky: 2.9, skyColor: 0xe4ecff, bounce: 0xb5a999, surroundings: 1.0 },
+  dark: { sun: 2.6, sunColor: 0xffdcb4, sky: 1.7, skyColor: 0xc4d6ff, bounce: 0x3a3d45, surroundings: 0.55 },
 };
 
 /** Breadth of the sun: how far its direction strays in a still. */
@@ -34,7 +34,7 @@ export class Light {
   private mood: Mood = kMoods.light;
 
   constructor(
-    private readonly scene: Scene,
+    scene: Scene,
     renderer: WebGLRenderer,
     shadowSize: number,
   ) {
@@ -50,10 +50,6 @@ export class Light {
     this.skyRay.shadow.radius = 1.5;
     this.dome.position.set(0, 0, 1);
     scene.add(this.dome);
-    const maker = new PMREMGenerator(renderer);
-    scene.environment = maker.fromScene(new RoomEnvironment(), 0.04).texture;
-    scene.environmentRotation.set(Math.PI / 2, 0, 0);
-    maker.dispose();
     this.setMood(kMoods.light);
     this.useLive();
   }
@@ -65,7 +61,6 @@ export class Light {
     this.skyRay.color.set(mood.skyColor);
     this.dome.color.set(mood.skyColor);
     this.dome.groundColor.set(mood.bounce);
-    this.scene.environmentIntensity = mood.surroundings;
   }
 
   /** Puts the sun behind what a camera looking along `forward` sees, on its left; there it stays however the camera turns. */

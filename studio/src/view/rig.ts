@@ -23,6 +23,8 @@ export class Rig {
   insets: Insets = { left: 0.04, right: 0.04, top: 0.13, bottom: 0.07 };
   /** Cut instead of flying. */
   still = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  /** All bricks are in view and nobody has moved the camera since: it keeps them in view when the page changes its size. */
+  private framed = true;
   private flight: { from: Aim; to: Aim; part: number } | null = null;
 
   /**
@@ -43,7 +45,10 @@ export class Rig {
     this.controls.minDistance = 0.6 * brickHeight;
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', changed);
-    this.controls.addEventListener('start', () => (this.flight = null));
+    this.controls.addEventListener('start', () => {
+      this.flight = null;
+      this.framed = false;
+    });
   }
 
   get distance(): number {
@@ -57,9 +62,11 @@ export class Rig {
   resize(aspect: number): void {
     this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
+    if (this.framed) this.frameAll(true);
   }
 
   private goTo(aim: Aim, cut = false): void {
+    this.framed = false;
     const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
     this.flight = { from, to: aim, part: cut || this.still ? 1 : 0 };
     if (this.flight.part === 1) this.advance(0);
@@ -125,6 +132,7 @@ export class Rig {
     const top = this.way === 'top';
     const forward = top ? new Vector3(0, 1e-3, -1) : this.defaultForward();
     this.goTo(frame(this.points, forward, this.camera, this.insets), cut);
+    this.framed = true;
   }
 
   defaultForward(): Vector3 {

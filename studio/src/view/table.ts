@@ -5,12 +5,12 @@ import { CircleGeometry, Color, Fog, Mesh, MeshStandardMaterial, type Scene } fr
 /** Linear-light colours that come out as the design's table and background after tone mapping. */
 export const kTableColors = {
   light: { table: 0xb9b0a5, background: 0xc2bbb3 },
-  dark: { table: 0x33363d, background: 0x24272d },
+  dark: { table: 0x3b3f47, background: 0x24272d },
 };
 
 export class Table {
   readonly mesh: Mesh;
-  private readonly material = new MeshStandardMaterial({ roughness: 0.93, metalness: 0, envMapIntensity: 0.6 });
+  private readonly material = new MeshStandardMaterial({ roughness: 0.93, metalness: 0 });
   private readonly fog = new Fog(0, 1, 10);
   private readonly background = new Color();
 

@@ -82,6 +82,7 @@ export class View {
 
   setTheme(theme: Theme): void {
     this.light.setMood(kMoods[theme]);
+    this.bricks.surroundings.value = kMoods[theme].surroundings;
     this.table.setTheme(theme);
     this.changed();
   }
