@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -15,7 +17,8 @@ namespace {
 /// A folder that goes with its test.
 class Folder {
  public:
-  explicit Folder(const std::string& name) : path_(std::filesystem::temp_directory_path() / ("topple_" + name)) {
+  explicit Folder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("topple_" + name + "_" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directory(path_);
   }
@@ -108,4 +111,38 @@ TEST_CASE("the table of knots has a line a knot and as many cells as columns") {
   REQUIRE(lines.size() == knots + 1);
   for (const std::string& line : lines) CHECK(std::count(line.begin(), line.end(), ',') == 17);
   CHECK(lines[0].starts_with("brick,time_s,angle_rad,"));
+}
+
+TEST_CASE("h5py reads an exported run by the documented names") {
+  const Folder folder("hdf5");
+  const Recording recording = three_bricks();
+  const auto exported = export_hdf5(recording, folder / "run.h5");
+  REQUIRE_MESSAGE(exported.has_value(), exported.error().message);
+  CHECK_FALSE(std::filesystem::exists(folder / "run.h5.part"));
+  // Debian's python3, for which there is a package of h5py.
+  const std::string command = "/usr/bin/python3 " TOPPLE_SOURCE_DIR "/tests/export/read_hdf5.py " + (folder / "run.h5").string() + " > " +
+                              (folder / "found.json").string();
+  REQUIRE(std::system(command.c_str()) == 0);
+  const std::string found = lines_of(folder / "found.json").at(0);
+  const auto says = [&](const std::string& what) { return found.find(what) != std::string::npos; };
+  INFO(found);
+  CHECK(says("\"format\": \"Topple recording\""));
+  CHECK(says("\"model\": \"scripted\""));
+  CHECK(says("\"layout\": \"[[row]]\\ncount = 3\\npitch_mm = 24\\n\""));
+  CHECK(says("\"reason\": \"at_rest\""));
+  CHECK(says("\"bricks\": 3"));
+  CHECK(says("\"foot\": [0.048, 0.0, 0.0]"));
+  CHECK(says("\"tracks\": 3"));
+  CHECK(says("\"force\": 5.0703"));
+  CHECK(says("\"no_force\": true"));
+  CHECK(says("\"by\": [0, -1]"));
+  CHECK(says("\"samples\": " + std::to_string(recording.energy().size())));
+  CHECK(says("\"stride\": 1"));
+}
+
+TEST_CASE("an HDF5 file that cannot be written is an error in words") {
+  const Folder folder("hdf5_wrong");
+  const Recording recording = three_bricks();
+  CHECK(export_hdf5(recording, folder / "").error().message.find("is a directory") != std::string::npos);
+  CHECK(export_hdf5(recording, folder / "no/such/run.h5").error().message.find("cannot be written as HDF5") != std::string::npos);
 }
