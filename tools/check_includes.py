@@ -14,15 +14,16 @@ USES = {
     "model": ["layout"],
     "pivot": ["model"],
     "hinge": ["model"],
+    "rigid": ["model"],
     "recording": ["model"],
-    "run": ["recording", "pivot", "hinge"],
+    "run": ["recording", "pivot", "hinge", "rigid"],
     "measure": ["recording"],
     "export": ["recording", "measure"],
     "all": ["run", "measure", "export"],  # include/topple/topple.h
     "apps": ["all"],
 }
-MODELS = ["pivot", "hinge"]
-CORE = ["base", "layout", "model", "pivot", "hinge", "recording", "run", "measure"]
+MODELS = ["pivot", "hinge", "rigid"]
+CORE = ["base", "layout", "model", "pivot", "hinge", "rigid", "recording", "run", "measure"]
 
 # Third parties, and the operating system, by the chapter that may have them.
 FOREIGN = {

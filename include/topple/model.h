@@ -133,7 +133,14 @@ struct HingeConfig {
   double rest_tolerance = 0.002;
 };
 
+// ---- Level 3: bricks that move freely ----
+
+struct RigidConfig {
+  // affects results
+  double time_step = 0.0;  ///< 0: a share of sqrt(height / gravity) of the smallest brick [s].
+};
+
 /// Choosing the config chooses the model.
-using ModelConfig = std::variant<PivotConfig, HingeConfig>;
+using ModelConfig = std::variant<PivotConfig, HingeConfig, RigidConfig>;
 
 }  // namespace topple

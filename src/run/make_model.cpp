@@ -8,6 +8,7 @@
 
 #include "model/hinge/hinge_model.h"
 #include "model/pivot/pivot_model.h"
+#include "model/rigid/rigid_model.h"
 #include "topple/run.h"
 
 namespace topple {
@@ -121,18 +122,28 @@ Result<ModelConfig> hinge_config(const Layout& layout) {
   return config;
 }
 
+Result<ModelConfig> rigid_config(const Layout& layout) {
+  RigidConfig config;
+  Settings settings(layout.model);
+  settings.number("time_step_s", 1.0, 1e-6, 0.05, config.time_step);
+  if (auto checked = settings.finish("rigid"); !checked) return std::unexpected(checked.error());
+  return config;
+}
+
 /// A model as the layout file and the command line know it.
 struct KnownModel {
   std::string_view name;
   Result<ModelConfig> (*read_config)(const Layout&);
 };
-constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}, KnownModel{"hinge", hinge_config}};
+constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}, KnownModel{"hinge", hinge_config}, KnownModel{"rigid", rigid_config}};
 
 // One overload a model.
 std::string_view name_of(const PivotConfig&) { return "pivot"; }
 std::string_view name_of(const HingeConfig&) { return "hinge"; }
+std::string_view name_of(const RigidConfig&) { return "rigid"; }
 Result<std::unique_ptr<Model>> make(const Layout& layout, const PivotConfig& config) { return pivot::make_pivot_model(layout, config); }
 Result<std::unique_ptr<Model>> make(const Layout& layout, const HingeConfig& config) { return hinge::make_hinge_model(layout, config); }
+Result<std::unique_ptr<Model>> make(const Layout& layout, const RigidConfig& config) { return rigid::make_rigid_model(layout, config); }
 
 }  // namespace
 

@@ -1,0 +1,238 @@
+#include "model/rigid/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace topple::rigid {
+
+namespace {
+
+// Axes of the separating axis test: 0-2 faces of a, 3-5 faces of b, 6-14 edges of a (slow) crossed with edges of b (fast).
+constexpr int kFirstEdgeAxis = 6;
+
+// Everything the axes share. [Gottschalk1996] section 5: T and R in a's axes, here with |R| beside R.
+struct BoxPair {
+  Vec3 apart;  // From a's centre to b's.
+  std::array<Vec3, 3> a_axis, b_axis;
+  std::array<double, 3> a_half{}, b_half{};
+  std::array<double, 3> a_apart{}, b_apart{};  // `apart` along the axes of a and of b.
+  std::array<std::array<double, 3>, 3> r{};    // a_axis[i] . b_axis[j]
+};
+
+BoxPair pair_up(const Body& a, const Body& b) {
+  BoxPair p;
+  p.apart = b.position - a.position;
+  p.a_half = {a.half.x, a.half.y, a.half.z};
+  p.b_half = {b.half.x, b.half.y, b.half.z};
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    p.a_axis[k] = column(a.axes, i);
+    p.b_axis[k] = column(b.axes, i);
+    p.a_apart[k] = dot(p.apart, p.a_axis[k]);
+    p.b_apart[k] = dot(p.apart, p.b_axis[k]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) p.r[i][j] = dot(p.a_axis[i], p.b_axis[j]);
+  }
+  return p;
+}
+
+double face_separation(const BoxPair& p, int axis) {
+  const auto k = static_cast<std::size_t>(axis % 3);
+  if (axis < 3) {
+    return std::abs(p.a_apart[k]) - p.a_half[k] - std::abs(p.r[k][0]) * p.b_half[0] - std::abs(p.r[k][1]) * p.b_half[1] -
+           std::abs(p.r[k][2]) * p.b_half[2];
+  }
+  return std::abs(p.b_apart[k]) - p.b_half[k] - std::abs(p.r[0][k]) * p.a_half[0] - std::abs(p.r[1][k]) * p.a_half[1] -
+         std::abs(p.r[2][k]) * p.a_half[2];
+}
+
+// Minus infinity where the two edges are so nearly parallel that a face axis does as well.
+double edge_separation(const BoxPair& p, int axis) {
+  const auto i = static_cast<std::size_t>((axis - kFirstEdgeAxis) / 3);
+  const auto j = static_cast<std::size_t>((axis - kFirstEdgeAxis) % 3);
+  const double sine_squared = 1.0 - p.r[i][j] * p.r[i][j];
+  if (sine_squared < 1e-6) return -std::numeric_limits<double>::infinity();
+  const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+  const double distance = std::abs(p.a_apart[i2] * p.r[i1][j] - p.a_apart[i1] * p.r[i2][j]);
+  const double reach = p.a_half[i1] * std::abs(p.r[i2][j]) + p.a_half[i2] * std::abs(p.r[i1][j]) + p.b_half[j1] * std::abs(p.r[i][j2]) +
+                       p.b_half[j2] * std::abs(p.r[i][j1]);
+  return (distance - reach) / std::sqrt(sine_squared);
+}
+
+struct ClipVertex {
+  Vec3 position;
+  std::uint32_t tag = 0;
+};
+
+struct Polygon {
+  int count = 0;
+  std::array<ClipVertex, 12> vertices;
+  void add(const ClipVertex& v) { vertices[static_cast<std::size_t>(count++)] = v; }
+};
+
+// Sutherland and Hodgman: keeps what lies on the inner side, normal . x <= offset.
+void clip(const Polygon& in, const Vec3& normal, double offset, std::uint32_t plane, Polygon& out) {
+  out.count = 0;
+  for (int i = 0; i < in.count; ++i) {
+    const ClipVertex& from = in.vertices[static_cast<std::size_t>(i)];
+    const ClipVertex& to = in.vertices[static_cast<std::size_t>((i + 1) % in.count)];
+    const double d0 = dot(normal, from.position) - offset;
+    const double d1 = dot(normal, to.position) - offset;
+    if (d0 <= 0.0) out.add(from);
+    if ((d0 <= 0.0) != (d1 <= 0.0)) {
+      const double share = d0 / (d0 - d1);
+      const std::uint32_t inner = (d0 <= 0.0 ? from.tag : to.tag) & 15U;
+      out.add({from.position + share * (to.position - from.position), 16U * plane + inner});
+    }
+  }
+}
+
+// The face of `body` that looks most against `direction`, as a polygon with its corners tagged 0-3 and the face's number.
+std::uint32_t incident_face(const Body& body, const Vec3& direction, Polygon& out) {
+  const Vec3 local = transposed_times(body.axes, direction);
+  const double ax = std::abs(local.x), ay = std::abs(local.y), az = std::abs(local.z);
+  const int axis = (ax >= ay && ax >= az) ? 0 : (ay >= az ? 1 : 2);
+  const double side = component(local, axis) > 0.0 ? -1.0 : 1.0;
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec3 centre = body.position + (side * component(body.half, axis)) * column(body.axes, axis);
+  const Vec3 du = component(body.half, u) * column(body.axes, u);
+  const Vec3 dv = component(body.half, v) * column(body.axes, v);
+  out.count = 0;
+  out.add({centre + du + dv, 0});
+  out.add({centre - du + dv, 1});
+  out.add({centre - du - dv, 2});
+  out.add({centre + du - dv, 3});
+  return static_cast<std::uint32_t>(2 * axis + (side > 0.0 ? 1 : 0));
+}
+
+// Clips the face of `other` that looks at the reference face by the sides of that face. `outward` is the reference face's normal.
+void face_points(const Body& base, const Body& other, int face_axis, const Vec3& outward, double margin, Manifold& out) {
+  Polygon front, back;
+  const std::uint32_t face = incident_face(other, outward, front);
+  Polygon* in = &front;
+  Polygon* result = &back;
+  // A hair's breadth wider, so that bricks of one width keep their corners instead of cutting them at random.
+  const double hair = 1e-7 * base.radius;
+  std::uint32_t plane = 1;
+  for (int side = 1; side <= 2; ++side) {
+    const int axis = (face_axis + side) % 3;
+    const Vec3 normal = column(base.axes, axis);
+    const double centre = dot(normal, base.position);
+    const double half = component(base.half, axis) + hair;
+    clip(*in, normal, centre + half, plane++, *result);
+    std::swap(in, result);
+    clip(*in, -normal, half - centre, plane++, *result);
+    std::swap(in, result);
+  }
+  const double offset = dot(outward, base.position) + component(base.half, face_axis);
+  const std::uint32_t code = (out.reference == Reference::a ? 1U << 16 : 2U << 16) + (face << 8);
+  out.count = 0;
+  for (int i = 0; i < in->count && out.count < 8; ++i) {
+    const ClipVertex& v = in->vertices[static_cast<std::size_t>(i)];
+    const double separation = dot(outward, v.position) - offset;
+    if (separation > margin) continue;
+    out.points[static_cast<std::size_t>(out.count++)] = {v.position, separation, code + v.tag};
+  }
+}
+
+// The closest points of the two edges whose cross product is the axis.
+void edge_point(const BoxPair& p, const Body& a, const Body& b, int axis, double separation, Manifold& out) {
+  const auto i = static_cast<std::size_t>((axis - kFirstEdgeAxis) / 3);
+  const auto j = static_cast<std::size_t>((axis - kFirstEdgeAxis) % 3);
+  Vec3 normal = cross(p.a_axis[i], p.b_axis[j]);
+  normal = (1.0 / norm(normal)) * normal;
+  if (dot(normal, p.apart) > 0.0) normal = -normal;  // From b to a.
+  Vec3 on_a = a.position, on_b = b.position;
+  std::uint32_t corner = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k != i) {
+      const double side = dot(p.a_axis[k], normal) > 0.0 ? -1.0 : 1.0;
+      on_a = on_a + (side * p.a_half[k]) * p.a_axis[k];
+      corner = 2 * corner + (side > 0.0 ? 1U : 0U);
+    }
+    if (k != j) {
+      const double side = dot(p.b_axis[k], normal) > 0.0 ? 1.0 : -1.0;
+      on_b = on_b + (side * p.b_half[k]) * p.b_axis[k];
+      corner = 2 * corner + (side > 0.0 ? 1U : 0U);
+    }
+  }
+  // Closest points of two lines, [Ericson2005] section 5.1.8.
+  const Vec3 between = on_a - on_b;
+  const double c = p.r[i][j];
+  const double along_a = dot(p.a_axis[i], between), along_b = dot(p.b_axis[j], between);
+  const double s = (c * along_b - along_a) / (1.0 - c * c);
+  const double t = (along_b - c * along_a) / (1.0 - c * c);
+  const Vec3 pa = on_a + s * p.a_axis[i];
+  const Vec3 pb = on_b + t * p.b_axis[j];
+  out.normal = normal;
+  out.reference = Reference::edges;
+  out.count = 1;
+  out.points[0] = {0.5 * (pa + pb), separation, (4U << 16) + (static_cast<std::uint32_t>(axis) << 8) + corner};
+}
+
+struct BestAxis {
+  int axis = -1;
+  double separation = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+void touch_floor(const Body& a, double margin, Manifold& out) {
+  out.normal = {0.0, 0.0, 1.0};
+  out.reference = Reference::b;
+  out.count = 0;
+  const Vec3 up = a.axes.r2;  // Height of each of the brick's axes.
+  const double reach = std::abs(up.x) * a.half.x + std::abs(up.y) * a.half.y + std::abs(up.z) * a.half.z;
+  if (a.position.z - reach > margin) return;
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    const Vec3 local{(corner & 1U) != 0 ? a.half.x : -a.half.x, (corner & 2U) != 0 ? a.half.y : -a.half.y,
+                     (corner & 4U) != 0 ? a.half.z : -a.half.z};
+    const double height = a.position.z + dot(up, local);
+    if (height > margin) continue;
+    const Vec3 arm = a.axes * local;
+    out.points[static_cast<std::size_t>(out.count++)] = {a.position + arm, height, corner};
+  }
+}
+
+void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifold& out) {
+  out.count = 0;
+  const BoxPair p = pair_up(a, b);
+  const auto separation_on = [&p](int k) { return k < kFirstEdgeAxis ? face_separation(p, k) : edge_separation(p, k); };
+  if (axis >= 0 && separation_on(axis) > margin) return;
+  // A face is kept, and preferred to an edge, unless another axis is clearly better: flips of the normal cost warm starts.
+  const double thinnest = 2.0 * std::min(std::min({a.half.x, a.half.y, a.half.z}), std::min({b.half.x, b.half.y, b.half.z}));
+  BestAxis best;
+  double best_score = best.separation;
+  for (int k = 0; k < 15; ++k) {
+    const double separation = separation_on(k);
+    if (separation > margin) {
+      axis = k;
+      return;
+    }
+    const double score = separation + (k == axis ? 1e-3 * thinnest : 0.0) - (k >= kFirstEdgeAxis ? 1e-2 * thinnest : 0.0);
+    if (score > best_score) {
+      best_score = score;
+      best = {k, separation};
+    }
+  }
+  axis = best.axis;
+  if (axis >= kFirstEdgeAxis) {
+    edge_point(p, a, b, axis, best.separation, out);
+  } else if (axis < 3) {
+    const Vec3 face = p.a_axis[static_cast<std::size_t>(axis)];
+    const Vec3 outward = dot(face, p.apart) > 0.0 ? face : -face;
+    out.normal = -outward;
+    out.reference = Reference::a;
+    face_points(a, b, axis, outward, margin, out);
+  } else {
+    const Vec3 face = p.b_axis[static_cast<std::size_t>(axis - 3)];
+    const Vec3 outward = dot(face, p.apart) > 0.0 ? -face : face;
+    out.normal = outward;
+    out.reference = Reference::b;
+    face_points(b, a, axis - 3, outward, margin, out);
+  }
+}
+
+}  // namespace topple::rigid

@@ -1,0 +1,36 @@
+/// Where bricks touch each other and the floor: geometry alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "model/rigid/brick_state.h"
+
+namespace topple::rigid {
+
+/// One point at which two bodies touch or nearly do.
+struct TouchPoint {
+  Vec3 position;              ///< [m]
+  double separation = 0.0;    ///< Along the normal; < 0 where they overlap [m].
+  std::uint32_t feature = 0;  ///< Which corner, edge or face made it: the same while the bodies slide on each other.
+};
+
+/// Which body's face gives the normal.
+enum class Reference : std::uint8_t { a, b, edges };
+
+/// All points of one pair. At most eight: a face clipped by a face.
+struct Manifold {
+  Vec3 normal;  ///< From b to a, unit.
+  Reference reference = Reference::b;
+  int count = 0;
+  std::array<TouchPoint, 8> points;
+};
+
+/// Points of a box and the floor z = 0 no farther than `margin` [m] apart; the normal is up and b is the floor.
+void touch_floor(const Body& a, double margin, Manifold& out);
+
+/// Points of two boxes no farther than `margin` [m] apart. `axis` remembers from call to call which of the 15 axes parted the boxes,
+/// or gave the normal, so that most calls end early; it starts at -1.
+void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifold& out);
+
+}  // namespace topple::rigid

@@ -1,0 +1,321 @@
+#include "model/rigid/wavefront.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace topple::rigid {
+
+namespace {
+
+double thinnest(const Body& body) { return 2.0 * std::min({body.half.x, body.half.y, body.half.z}); }
+double longest(const Body& body) { return 2.0 * std::max({body.half.x, body.half.y, body.half.z}); }
+
+// Two kinds in contact: the geometric mean, which is the value itself where both are alike.
+double combined(double one, double other) { return one == other ? one : std::sqrt(one * other); }
+
+// How far the farthest corner may have moved [m].
+double displacement(const Body& body, const Vec3& position, const Quat& orientation) {
+  const Quat& q = body.orientation;
+  const double same = q.w * orientation.w + q.x * orientation.x + q.y * orientation.y + q.z * orientation.z;
+  return norm(body.position - position) + 2.0 * body.radius * std::sqrt(std::max(0.0, 1.0 - same * same));
+}
+
+}  // namespace
+
+World::World(const Layout& source) : layout(source), neighbours(source), gravity(source.gravity) {
+  const std::size_t count = source.bricks.size();
+  phase.assign(count, Phase::standing);
+  arrived.assign(count, 0);
+  struck.assign(count, 0);
+  front.assign(count, kNoFront);
+  place.assign(count, 0);
+  for (const BrickKind& kind : source.kinds) largest = std::max({largest, kind.height, kind.width, kind.thickness});
+  pose.reserve(count);
+  for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing_pose(source, brick));
+}
+
+int Front::place_of(BrickId brick) const {
+  const auto at = static_cast<std::size_t>(brick);
+  if (world_.front[at] == number_) return world_.place[at];
+  if (world_.front[at] == kNoFront) return -1;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].id == brick) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+bool Front::has_front(std::int32_t other) const { return std::find(met_.begin(), met_.end(), other) != met_.end(); }
+
+int Front::add(BrickId brick) {
+  const auto at = static_cast<std::size_t>(brick);
+  const int place = static_cast<int>(bodies_.size());
+  const std::uint16_t kind = world_.layout.bricks[at].kind;
+  Body body = make_body(world_.layout.kinds[kind], brick, kind, world_.pose[at]);
+  body.inverse_mass = 0.0;
+  body.inverse_inertia = Mat3{};
+  Member member;
+  member.thin = thinnest(body);
+  member.time_scale = std::sqrt(longest(body) / world_.gravity);
+  const Quat put_down = standing_pose(world_.layout, brick).orientation;
+  member.local_up = rotate(conjugate(put_down), Vec3{0.0, 0.0, 1.0});
+  if (world_.front[at] == kNoFront) {
+    world_.front[at] = number_;
+    world_.place[at] = place;
+  } else {
+    member.ghost = true;
+    if (!has_front(world_.front[at])) met_.push_back(world_.front[at]);
+  }
+  bodies_.push_back(body);
+  members_.push_back(member);
+  return place;
+}
+
+void Front::set_moving(int place) {
+  Body& body = bodies_[static_cast<std::size_t>(place)];
+  Member& member = members_[static_cast<std::size_t>(place)];
+  body.inverse_mass = 1.0 / world_.layout.kinds[body.kind].mass;
+  refresh(body);
+  member.moving = true;
+  member.quiet = 0.0;
+  member.tilt_cosine = (body.axes * member.local_up).z;
+  ++moving_;
+  Touch floor;
+  floor.a = place;
+  const Surface& surface = world_.layout.kinds[body.kind].surface;
+  floor.friction = surface.floor_friction;
+  floor.restitution = surface.floor_restitution;
+  touches_.push_back(floor);
+}
+
+void Front::wake(BrickId brick, double /*time*/) {
+  int place = place_of(brick);
+  if (place < 0) place = add(brick);
+  if (members_[static_cast<std::size_t>(place)].moving) return;
+  const auto at = static_cast<std::size_t>(brick);
+  if (world_.phase[at] == Phase::resting) {
+    const Body& body = bodies_[static_cast<std::size_t>(place)];
+    world_.resting_energy -=
+        world_.gravity * world_.layout.kinds[body.kind].mass * (body.position.z - standing_pose(world_.layout, brick).position.z);
+  }
+  world_.phase[at] = Phase::falling;
+  set_moving(place);
+  list_neighbours(place);
+  order_touches();
+  // What stands on it or leans on it wakes when it has gone.
+  const Body& body = bodies_[static_cast<std::size_t>(place)];
+  for (Touch& touch : touches_) {
+    if (touch.b == kFloor || (touch.a != place && touch.b != place)) continue;
+    const int other = touch.a == place ? touch.b : touch.a;
+    if (members_[static_cast<std::size_t>(other)].moving) continue;
+    touch_boxes(bodies_[static_cast<std::size_t>(touch.a)], bodies_[static_cast<std::size_t>(touch.b)],
+                world_.tolerances.touching * members_[static_cast<std::size_t>(place)].thin, touch.axis, touch.manifold);
+    touch.bearing = touch.manifold.count > 0;
+    touch.memory.fill(kTouching);
+    touch.mark_position = body.position;
+    touch.mark_orientation = body.orientation;
+  }
+}
+
+void Front::list_neighbours(int place) {
+  const Body body = bodies_[static_cast<std::size_t>(place)];
+  members_[static_cast<std::size_t>(place)].listed_at = body.position;
+  world_.neighbours.near(body.position, near_);
+  for (const BrickId other : near_) {
+    if (other == body.id) continue;
+    int there = place_of(other);
+    const auto at = static_cast<std::size_t>(other);
+    const bool known = there >= 0;
+    const Vec3 position = known ? bodies_[static_cast<std::size_t>(there)].position : world_.pose[at].position;
+    const Vec3 size = half_extents(world_.layout.kind_of(other));
+    const double reach = body.radius + norm(size) + 0.5 * body.radius;
+    const Vec3 apart = position - body.position;
+    if (dot(apart, apart) > reach * reach) continue;
+    if (!known) there = add(other);
+    const int a = body.id < other ? place : there;
+    const int b = body.id < other ? there : place;
+    const bool listed = std::any_of(touches_.begin(), touches_.end(), [a, b](const Touch& t) { return t.a == a && t.b == b; });
+    if (listed) continue;
+    Touch touch;
+    touch.a = a;
+    touch.b = b;
+    const Surface& mine = world_.layout.kinds[body.kind].surface;
+    const Surface& its = world_.layout.kind_of(other).surface;
+    touch.friction = combined(mine.brick_friction, its.brick_friction);
+    touch.restitution = combined(mine.brick_restitution, its.brick_restitution);
+    touches_.push_back(touch);
+  }
+}
+
+void Front::list_those_that_strayed() {
+  bool changed = false;
+  const std::size_t count = bodies_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!members_[i].moving) continue;
+    const Vec3 strayed = bodies_[i].position - members_[i].listed_at;
+    const double allowed = 0.15 * bodies_[i].radius;
+    if (dot(strayed, strayed) < allowed * allowed) continue;
+    world_.neighbours.moved(bodies_[i].id, members_[i].listed_at, bodies_[i].position);
+    list_neighbours(static_cast<int>(i));
+    changed = true;
+  }
+  if (changed) {
+    drop_idle();
+    order_touches();
+  }
+}
+
+void Front::drop_idle() {
+  // Pairs of which neither moves, or that have gone out of reach.
+  std::erase_if(touches_, [this](const Touch& touch) {
+    if (touch.b == kFloor) return !members_[static_cast<std::size_t>(touch.a)].moving;
+    const auto a = static_cast<std::size_t>(touch.a), b = static_cast<std::size_t>(touch.b);
+    if (!members_[a].moving && !members_[b].moving) return true;
+    const double reach = 2.0 * (bodies_[a].radius + bodies_[b].radius);
+    const Vec3 apart = bodies_[a].position - bodies_[b].position;
+    return dot(apart, apart) > reach * reach;
+  });
+  std::vector<int>& renamed = renamed_;
+  renamed.assign(bodies_.size(), -1);
+  for (const Touch& touch : touches_) {
+    renamed[static_cast<std::size_t>(touch.a)] = 0;
+    if (touch.b != kFloor) renamed[static_cast<std::size_t>(touch.b)] = 0;
+  }
+  int kept = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto id = static_cast<std::size_t>(bodies_[i].id);
+    if (renamed[i] < 0) {
+      if (!members_[i].ghost) world_.front[id] = kNoFront;
+      continue;
+    }
+    renamed[i] = kept;
+    if (!members_[i].ghost) world_.place[id] = kept;
+    if (static_cast<std::size_t>(kept) != i) {
+      bodies_[static_cast<std::size_t>(kept)] = bodies_[i];
+      members_[static_cast<std::size_t>(kept)] = members_[i];
+    }
+    ++kept;
+  }
+  bodies_.resize(static_cast<std::size_t>(kept));
+  members_.resize(static_cast<std::size_t>(kept));
+  for (Touch& touch : touches_) {
+    touch.a = renamed[static_cast<std::size_t>(touch.a)];
+    if (touch.b != kFloor) touch.b = renamed[static_cast<std::size_t>(touch.b)];
+  }
+}
+
+void Front::order_touches() {
+  // By brick, its floor first: along a row the sweeps run with the wave and against it.
+  std::sort(touches_.begin(), touches_.end(), [this](const Touch& l, const Touch& r) {
+    const BrickId la = bodies_[static_cast<std::size_t>(l.a)].id, ra = bodies_[static_cast<std::size_t>(r.a)].id;
+    if (la != ra) return la < ra;
+    const BrickId lb = l.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(l.b)].id;
+    const BrickId rb = r.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(r.b)].id;
+    return lb < rb;
+  });
+}
+
+void Front::wake_unsupported(double now) {
+  bool again = true;
+  while (again) {
+    again = false;
+    for (const Touch& touch : touches_) {
+      if (touch.b == kFloor || !touch.bearing) continue;
+      const bool a_moves = members_[static_cast<std::size_t>(touch.a)].moving;
+      const bool b_moves = members_[static_cast<std::size_t>(touch.b)].moving;
+      if (a_moves == b_moves) continue;
+      const auto mover = static_cast<std::size_t>(a_moves ? touch.a : touch.b);
+      const auto still = static_cast<std::size_t>(a_moves ? touch.b : touch.a);
+      if (members_[still].ghost) continue;
+      const double moved = displacement(bodies_[mover], touch.mark_position, touch.mark_orientation);
+      if (moved < world_.tolerances.support * members_[still].thin) continue;
+      wake(bodies_[still].id, now);
+      again = true;
+      break;
+    }
+  }
+}
+
+void Front::retire(double time) {
+  const Tolerances& limits = world_.tolerances;
+  bool any = false;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Member& member = members_[i];
+    Body& body = bodies_[i];
+    if (!member.moving) continue;
+    // How far its farthest corner would go with this speed and this acceleration [m].
+    const double horizon = limits.horizon * member.time_scale;
+    const double speed = norm(body.velocity) + body.radius * norm(body.angular_velocity);
+    const double gain = norm(body.velocity - member.velocity_before) + body.radius * norm(body.angular_velocity - member.spin_before);
+    const double ahead = horizon * (speed + 0.5 * horizon * gain / world_.step);
+    const bool quiet = ahead < limits.retire * member.thin && !member.pushed;
+    member.quiet = quiet ? member.quiet + world_.step : 0.0;
+    if (member.quiet < limits.patience * member.time_scale) continue;
+    any = true;
+    member.moving = false;
+    member.just_rested = true;
+    --moving_;
+    const auto id = static_cast<std::size_t>(body.id);
+    world_.neighbours.moved(body.id, member.listed_at, body.position);
+    world_.pose[id] = {body.position, body.orientation};
+    world_.phase[id] = Phase::resting;
+    const double mass = world_.layout.kinds[body.kind].mass;
+    world_.resting_energy += world_.gravity * mass * (body.position.z - standing_pose(world_.layout, body.id).position.z);
+    note_rest(static_cast<int>(i), time);
+    body.velocity = {};
+    body.angular_velocity = {};
+    body.inverse_mass = 0.0;
+    body.inverse_inertia = Mat3{};
+    for (Touch& touch : touches_) {
+      if (touch.b == kFloor || (touch.a != static_cast<int>(i) && touch.b != static_cast<int>(i))) continue;
+      const Body& other = bodies_[static_cast<std::size_t>(touch.a == static_cast<int>(i) ? touch.b : touch.a)];
+      touch.bearing = touch.impulse > 0.0;
+      touch.mark_position = other.position;
+      touch.mark_orientation = other.orientation;
+    }
+  }
+  rested_ = rested_ || any;
+}
+
+void Front::absorb(Front& other) {
+  for (std::size_t i = 0; i < other.bodies_.size(); ++i) {
+    const auto id = static_cast<std::size_t>(other.bodies_[i].id);
+    const int ghost = place_of(other.bodies_[i].id);
+    if (other.members_[i].ghost) {
+      // Either ours, or of a third front.
+      if (ghost < 0) {
+        bodies_.push_back(other.bodies_[i]);
+        members_.push_back(other.members_[i]);
+      }
+      continue;
+    }
+    // A ghost here is what the other front really has.
+    int place = ghost;
+    if (ghost >= 0) {
+      bodies_[static_cast<std::size_t>(ghost)] = other.bodies_[i];
+      members_[static_cast<std::size_t>(ghost)] = other.members_[i];
+    } else {
+      place = static_cast<int>(bodies_.size());
+      bodies_.push_back(other.bodies_[i]);
+      members_.push_back(other.members_[i]);
+    }
+    world_.front[id] = number_;
+    world_.place[id] = place;
+  }
+  for (const Touch& theirs : other.touches_) {
+    Touch touch = theirs;
+    touch.a = place_of(other.bodies_[static_cast<std::size_t>(theirs.a)].id);
+    if (theirs.b != kFloor) touch.b = place_of(other.bodies_[static_cast<std::size_t>(theirs.b)].id);
+    const bool listed = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& t) { return t.a == touch.a && t.b == touch.b; });
+    if (!listed) touches_.push_back(touch);
+  }
+  moving_ += other.moving_;
+  forces_.insert(forces_.end(), other.forces_.begin(), other.forces_.end());
+  events_.insert(events_.end(), other.events_.begin(), other.events_.end());
+  contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
+  for (const std::int32_t number : other.met_) {
+    if (number != number_ && !has_front(number)) met_.push_back(number);
+  }
+  order_touches();
+}
+
+}  // namespace topple::rigid
