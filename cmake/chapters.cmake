@@ -11,6 +11,8 @@ target_compile_options(topple_options INTERFACE -ffp-contract=off -fno-math-errn
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(topple_options INTERFACE -Wno-restrict)
 endif()
+# clang dislikes what libstdc++ 12's own stable_sort uses.
+target_compile_options(topple_options INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>)
 if(TOPPLE_WERROR)
   target_compile_options(topple_options INTERFACE -Werror)
 endif()

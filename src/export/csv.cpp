@@ -34,7 +34,7 @@ class Table {
     text_ += word;
     return *this;
   }
-  Table& empty(int cells = 1) {
+  Table& skip(int cells = 1) {
     for (int i = 0; i < cells; ++i) separate();
     return *this;
   }
@@ -87,10 +87,10 @@ Result<void> add_track(Table& table, const Layout& layout, const Track& track) {
   for (const HingedKnot& knot : track.hinged) {
     table.cell(track.brick).cell(track.start + double{knot.time}).cell(knot.angle).cell(knot.rate).cell(knot.acceleration);
     add_pose(table, hinged_pose(layout, track.brick, double{knot.angle}));
-    if (auto done = table.empty(6).end_line(); !done) return done;
+    if (auto done = table.skip(6).end_line(); !done) return done;
   }
   for (const FreeKnot& knot : track.free) {
-    table.cell(track.brick).cell(track.start + double{knot.time}).empty(3);
+    table.cell(track.brick).cell(track.start + double{knot.time}).skip(3);
     const Vec3 offset{knot.x, knot.y, knot.z};
     add_pose(table, {standing_pose(layout, track.brick).position + offset, {knot.qw, knot.qx, knot.qy, knot.qz}});
     table.cell(knot.vx).cell(knot.vy).cell(knot.vz).cell(knot.wx).cell(knot.wy).cell(knot.wz);
@@ -120,7 +120,7 @@ Result<void> export_events_csv(const Recording& recording, const std::filesystem
     const Event event = recording.event(i);
     table->cell(event.time).word(kWords[static_cast<std::size_t>(event.kind)]).cell(event.brick);
     if (event.by == kNoBrick) {
-      table->empty();
+      table->skip();
     } else {
       table->cell(event.by);
     }

@@ -23,7 +23,7 @@ bool fell(const Recording& recording, BrickId brick, double time) {
 /// What the events tell while they come: how far the wave is, and where it stopped.
 struct Story {
   std::int64_t arrived = 0;
-  BrickId missed = kNoBrick;    ///< Fell flat short of the next brick.
+  BrickId missed = kNoBrick;      ///< Fell flat short of the next brick.
   BrickId not_fallen = kNoBrick;  ///< Was struck or pushed, and came to rest short of its tip angle.
 
   void take(std::span<const Event> events, const Recording& recording) {

@@ -14,7 +14,7 @@ namespace {
 /// Bricks by square cell of the floor, so that those within reach of one are found without looking at all.
 class FloorGrid {
  public:
-  FloorGrid(const Layout& layout, double cell) : layout_(layout), cell_(cell) {
+  FloorGrid(const Layout& layout, double cell) : cell_(cell) {
     entries_.reserve(layout.bricks.size());
     for (BrickId i = 0; i < layout.brick_count(); ++i) {
       const Vec3& foot = layout.bricks[static_cast<std::size_t>(i)].foot;
@@ -43,7 +43,6 @@ class FloorGrid {
 
   std::int32_t index(double x) const { return static_cast<std::int32_t>(std::floor(x / cell_)); }
 
-  const Layout& layout_;
   double cell_;
   std::vector<Entry> entries_;
 };

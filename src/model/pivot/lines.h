@@ -10,9 +10,9 @@ namespace topple::pivot {
 
 /// Links of the bricks that a wave can reach; shape of every array: [brick_count].
 struct Lines {
-  std::vector<BrickId> ahead;    ///< First of the bricks that it strikes, kNoBrick if none.
-  std::vector<BrickId> sibling;  ///< Next of the bricks struck by the same one.
-  std::vector<BrickId> behind;   ///< The one that strikes it.
+  std::vector<BrickId> ahead;       ///< First of the bricks that it strikes, kNoBrick if none.
+  std::vector<BrickId> sibling;     ///< Next of the bricks struck by the same one.
+  std::vector<BrickId> behind;      ///< The one that strikes it.
   std::vector<std::int32_t> depth;  ///< Bricks between it and the first of its line; greater further on. -1: out of reach.
   std::vector<std::int8_t> side;    ///< +1: it turns about its toe, -1: about its heel (struck from the front).
 };

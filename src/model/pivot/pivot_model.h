@@ -45,7 +45,7 @@ class PivotModel final : public Model {
   void rest_bricks();
 
   // Pushes and hits.
-  void push(BrickId brick, std::size_t push, double time);
+  void push(BrickId brick, std::size_t index, double time);
   void find_hit(const Moving& hitter);
   void hand_on(const Hit& hit);
   double report_force(const Moving& hitter, double time) const;
