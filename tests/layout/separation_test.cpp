@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 
 #include "base/random.h"
@@ -58,6 +59,36 @@ double gap_by_search(const Box& a, const Box& b, Random& random) {
       attempt((1.0 / norm(moved)) * moved);
     }
   }
+  return best;
+}
+
+/// The fifteen axes once more, plainly: every axis made in the world, normalised, and both boxes projected on it, with more digits.
+/// Edges whose cross product vanishes even then are left out.
+long double reference_gap(const Box& a, const Box& b) {
+  using Axis = std::array<long double, 3>;
+  const auto axes_of = [](const Quat& q) {
+    const long double w = q.w, x = q.x, y = q.y, z = q.z, n = w * w + x * x + y * y + z * z;
+    return std::array<Axis, 3>{{{(w * w + x * x - y * y - z * z) / n, 2 * (x * y + w * z) / n, 2 * (x * z - w * y) / n},
+                                {2 * (x * y - w * z) / n, (w * w - x * x + y * y - z * z) / n, 2 * (y * z + w * x) / n},
+                                {2 * (x * z + w * y) / n, 2 * (y * z - w * x) / n, (w * w - x * x - y * y + z * z) / n}}};
+  };
+  const auto dot3 = [](const Axis& u, const Axis& v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
+  const std::array<Axis, 3> of_a = axes_of(a.pose.orientation), of_b = axes_of(b.pose.orientation);
+  const Axis half_a{a.half.x, a.half.y, a.half.z}, half_b{b.half.x, b.half.y, b.half.z};
+  const Vec3 between = b.pose.position - a.pose.position;
+  long double best = -1.0L;
+  const auto look_along = [&](const Axis& axis) {
+    const long double length = std::sqrt(dot3(axis, axis));
+    if (length < 1e-16L) return;
+    long double reach = 0.0L;
+    for (std::size_t i = 0; i < 3; ++i) reach += half_a[i] * std::abs(dot3(axis, of_a[i])) + half_b[i] * std::abs(dot3(axis, of_b[i]));
+    best = std::fmax(best, (std::abs(dot3(axis, {between.x, between.y, between.z})) - reach) / length);
+  };
+  for (const Axis& u : of_a) {
+    look_along(u);
+    for (const Axis& v : of_b) look_along({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+  }
+  for (const Axis& v : of_b) look_along(v);
   return best;
 }
 
@@ -149,6 +180,33 @@ TEST_CASE("edges that are almost parallel neither spoil the separation nor make 
       if (straight > 0.0) CHECK(turned > -angle * norm(half) - 1e-16);
     }
   }
+}
+
+TEST_CASE("turned a little, the depth of two boxes is right to the last digits") {
+  Random random(12);
+  const Vec3 half{0.01, 0.01, 0.01};
+  // Axes of one may lie along other axes of the other: cubes look the same.
+  const std::array<Quat, 3> quarters{Quat{}, about({0.0, 0.0, 1.0}, kPi / 2.0), about({0.0, 1.0, 0.0}, kPi / 2.0)};
+  double worst = 0.0;
+  int looked = 0;
+  for (double angle = 1.0; angle > 1e-4; angle *= 0.5) {
+    for (int i = 0; i < 4000; ++i) {
+      // Edge to edge, about as deep along several axes: where which axis wins depends on the turn.
+      const double deep = angle * 0.01 * random.uniform();
+      const Vec3 at{0.02 - deep, 0.02 - deep * random.uniform(), 0.02 * (random.uniform() - 0.5)};
+      const Quat base = random_turn(random);
+      const Box a{{{0.0, 0.0, 0.0}, base}, half};
+      const Box b{{rotate(base, at), base * about(random_direction(random), angle) * quarters[static_cast<std::size_t>(i % 3)]}, half};
+      const double fast = separation(a, b);
+      if (fast >= 0.0) continue;
+      ++looked;
+      worst = std::fmax(worst, std::abs(static_cast<double>(fast - reference_gap(a, b))));
+    }
+  }
+  CHECK(looked > 10000);
+  // Places of 5 cm carry 7e-18 m a digit, the turns 1e-16, which moves a corner by 3e-18 m; the reference loses 5e-20 / angle of a brick's
+  // size.
+  CHECK(worst < 1e-16);
 }
 
 }  // namespace topple
