@@ -1,7 +1,9 @@
 // The only loop.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "topple/run.h"
 
@@ -23,29 +25,36 @@ bool fell(const Recording& recording, BrickId brick, double time) {
 /// What the events tell while they come: how far the wave is, and where it stopped.
 struct Story {
   std::int64_t arrived = 0;
-  BrickId missed = kNoBrick;      ///< Fell flat short of the next brick.
-  BrickId not_fallen = kNoBrick;  ///< Was struck or pushed, and came to rest short of its tip angle.
+  BrickId missed = kNoBrick;    ///< Fell flat short of the next brick.
+  std::vector<BrickId> rested;  ///< In the order in which they came to rest.
 
-  void take(std::span<const Event> events, const Recording& recording) {
+  void take(std::span<const Event> events) {
     for (const Event& event : events) {
       if (event.kind == EventKind::arrived) ++arrived;
       if (event.kind == EventKind::missed) missed = event.brick;
-      if (event.kind == EventKind::rested && !fell(recording, event.brick, event.time)) not_fallen = event.brick;
-      if (event.kind == EventKind::struck && event.brick == not_fallen) not_fallen = kNoBrick;
+      if (event.kind == EventKind::rested) rested.push_back(event.brick);
     }
+  }
+
+  /// The last brick that was struck or pushed and rests short of its tip angle. The recording knows that once its tracks are closed.
+  BrickId not_fallen(const Recording& recording) const {
+    const auto short_of_tip = [&](BrickId brick) { return !fell(recording, brick, recording.duration()); };
+    const auto last = std::find_if(rested.rbegin(), rested.rend(), short_of_tip);
+    return last == rested.rend() ? kNoBrick : *last;
   }
 };
 
-RunEnd end_at_rest(const Story& story) {
+RunEnd end_at_rest(const Story& story, const Recording& recording) {
+  const BrickId not_fallen = story.not_fallen(recording);
   RunEnd end{.reason = EndReason::at_rest, .words = "everything is at rest"};
   if (story.missed != kNoBrick) {
     end.reason = EndReason::wave_died;
     end.brick = story.missed;
     end.words = "the wave died at " + brick_words(story.missed) + ": it fell flat without reaching " + brick_words(story.missed + 1);
-  } else if (story.not_fallen != kNoBrick) {
+  } else if (not_fallen != kNoBrick) {
     end.reason = EndReason::wave_died;
-    end.brick = story.not_fallen;
-    end.words = "the wave died at " + brick_words(story.not_fallen) + ": it was moved, but not past its tip angle";
+    end.brick = not_fallen;
+    end.words = "the wave died at " + brick_words(not_fallen) + ": it was moved, but not past its tip angle";
   }
   return end;
 }
@@ -66,13 +75,14 @@ Result<Recording> simulate(Layout layout, const ModelConfig& model_config, const
   while (end.reason == EndReason::running) {
     const Status status = model.step();
     recorder.take(model);
-    story.take(model.events(), recording);
+    story.take(model.events());
     const double time = static_cast<double>(model.step_count()) * time_step;
     if (status.progress == Progress::not_finite) {
       end = {.reason = EndReason::not_finite, .brick = status.brick};
       end.words = "the numbers of " + brick_words(status.brick) + " are no longer finite at step " + std::to_string(model.step_count());
     } else if (status.progress == Progress::at_rest) {
-      end = end_at_rest(story);
+      recorder.finish({});
+      end = end_at_rest(story, recording);
     } else if (time >= config.until) {
       end = {.reason = EndReason::time_limit, .words = "the time limit was reached"};
     } else if (config.watch && model.step_count() % kStepsBetweenWatches == 0) {

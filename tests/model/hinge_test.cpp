@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "model/hinge_row.h"
+#include "topple/run.h"
 
 using namespace topple;
 
@@ -328,4 +329,14 @@ TEST_CASE("what_a_chain_of_hinges_cannot_do_is_refused_in_words_that_name_rigid"
   layout.bricks[1].foot.y = 0.004;
   layout.bricks[4].foot.y = 0.0265;
   refused(layout, "brick 1 ahead of brick 4 stands");
+}
+
+TEST_CASE("a_run_in_which_all_fall_ends_at_rest_and_one_that_falls_short_says_where") {
+  auto all = simulate(make_row({.count = 20, .gap = 0.0165}), HingeConfig{});
+  REQUIRE(all.has_value());
+  CHECK(all->end().reason == EndReason::at_rest);
+  auto none = simulate(make_row({.count = 20, .gap = 0.0165, .push = 1.0}), HingeConfig{});
+  REQUIRE(none.has_value());
+  CHECK(none->end().reason == EndReason::wave_died);
+  CHECK(none->end().brick == 0);
 }
