@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails on a source key such as [Arnesson2020], in code or documents, that docs/references.bib does not have.
+"""Fails on a source key such as [Arnesson2020], in code or documents, that docs/references.bib does not have, and on a document's link
+that leads to no file.
 
 usage: check_references.py [TREE]    (default: the tree this file is in)
 """
@@ -10,6 +11,7 @@ from pathlib import Path
 FOLDERS = ("include", "src", "apps", "tests", "scenes", "docs", "studio/src", "bench", "validation")
 ENDINGS = (".h", ".cpp", ".py", ".ts", ".svelte", ".md", ".toml")
 KEY = re.compile(r"\[([A-Za-z]+(?:19|20)\d\d[a-z]?)\]")
+LINK = re.compile(r"\]\(([^)#:\s]+)\)")
 ENTRY = re.compile(r"^@\w+\{([^,\s]+),", re.MULTILINE)
 
 
@@ -27,6 +29,9 @@ def check(tree):
                 cited += 1
                 if key not in entries:
                     problems.append(f"{file.relative_to(tree)}:{number}: [{key}] is not in docs/references.bib")
+            for link in LINK.findall(line) if file.suffix == ".md" else []:
+                if not (file.parent / link).exists():
+                    problems.append(f"{file.relative_to(tree)}:{number}: the link to {link} leads nowhere")
     return problems, cited, entries
 
 

@@ -135,7 +135,8 @@ struct KnownModel {
   std::string_view name;
   Result<ModelConfig> (*read_config)(const Layout&);
 };
-constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}, KnownModel{"hinge", hinge_config}, KnownModel{"rigid", rigid_config}};
+constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}, KnownModel{"hinge", hinge_config},
+                                     KnownModel{"rigid", rigid_config}};
 
 // One overload a model.
 std::string_view name_of(const PivotConfig&) { return "pivot"; }

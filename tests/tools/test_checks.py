@@ -104,6 +104,11 @@ class References(Tree):
         self.assertEqual(cited, 2)
         self.assertEqual(problems, ["src/base/a.cpp:2: [Unknown" "1999] is not in docs/references.bib"])
 
+    def test_a_link_that_leads_nowhere_is_found(self):
+        self.write("docs/references.bib", "@article{Known2010,\n}\n")
+        self.write("README.md", "[the sources](docs/references.bib), [the web](https://example.org), [gone](docs/gone.md)\n")
+        self.assertEqual(check_references.check(self.tree)[0], ["README.md:1: the link to docs/gone.md leads nowhere"])
+
     def test_an_entry_that_is_there_twice_is_found(self):
         self.write("docs/references.bib", "@article{Known2010,\n}\n@book{Known2010,\n}\n")
         self.assertEqual(len(check_references.check(self.tree)[0]), 1)
