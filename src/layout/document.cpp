@@ -66,7 +66,7 @@ void move_to(Node& node, const Place& place) {
   if (auto* array = std::get_if<Array>(&node.value)) {
     for (Node& inner : *array) move_to(inner, place);
   } else if (auto* table = std::get_if<Table>(&node.value)) {
-    for (Member& member : *table) {
+    for (KeyedNode& member : *table) {
       member.place = place;
       move_to(member.node, place);
     }
@@ -76,7 +76,7 @@ void move_to(Node& node, const Place& place) {
 }  // namespace
 
 const Node* find_member(const Table& table, std::string_view key) {
-  for (const Member& member : table) {
+  for (const KeyedNode& member : table) {
     if (member.key == key) return &member.node;
   }
   return nullptr;

@@ -19,9 +19,9 @@ struct Place {
 };
 
 struct Node;
-struct Member;
+struct KeyedNode;
 using Array = std::vector<Node>;
-using Table = std::vector<Member>;
+using Table = std::vector<KeyedNode>;
 /// A value of a type that no key has: a date or a time.
 struct Moment {};
 
@@ -30,7 +30,7 @@ struct Node {
   Place place;
 };
 
-struct Member {
+struct KeyedNode {
   std::string key;
   Place place;  ///< Of the key.
   Node node;

@@ -47,7 +47,7 @@ class OverlapSearch {
     fill_grids();
   }
 
-  std::vector<Overlap> run() {
+  std::vector<OverlappingPair> run() {
     for (int level = 0; level < kLevels && !full(); ++level) {
       if (grids_[static_cast<std::size_t>(level)].entries.empty()) continue;
       search_level(grids_[static_cast<std::size_t>(level)]);
@@ -56,8 +56,9 @@ class OverlapSearch {
         if (!wide.entries.empty()) search_coarser(grids_[static_cast<std::size_t>(level)], wide);
       }
     }
-    std::sort(found_.begin(), found_.end(),
-              [](const Overlap& a, const Overlap& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
+    std::sort(found_.begin(), found_.end(), [](const OverlappingPair& a, const OverlappingPair& b) {
+      return std::pair(a.first, a.second) < std::pair(b.first, b.second);
+    });
     return std::move(found_);
   }
 
@@ -177,24 +178,24 @@ class OverlapSearch {
   Vec3 low_;
   double least_width_ = 0.0;  // [m]; finer cells than this would not fit the bits
   double storey_ = 0.0;       // height of a cell, at least that of the tallest brick [m]
-  std::vector<Overlap> found_;
+  std::vector<OverlappingPair> found_;
   double heading_ = 0.0;
   SinCos turn_{};
 };
 
 }  // namespace
 
-std::vector<Overlap> find_overlaps(const Layout& layout, std::size_t most) { return OverlapSearch(layout, most).run(); }
+std::vector<OverlappingPair> find_overlaps(const Layout& layout, std::size_t most) { return OverlapSearch(layout, most).run(); }
 
 void report_overlaps(const Layout& layout, const std::vector<PartPlan>& plans, Problems& problems) {
   constexpr std::size_t kMost = 1000;
-  const std::vector<Overlap> overlaps = find_overlaps(layout, kMost);
+  const std::vector<OverlappingPair> overlaps = find_overlaps(layout, kMost);
   const auto part_of = [&](BrickId brick) {
     const auto after =
         std::upper_bound(layout.parts.begin(), layout.parts.end(), brick, [](BrickId id, const Part& part) { return id < part.first; });
     return static_cast<std::size_t>(after - layout.parts.begin()) - 1;
   };
-  for (const Overlap& overlap : overlaps) {
+  for (const OverlappingPair& overlap : overlaps) {
     const std::size_t one = part_of(overlap.first), other = part_of(overlap.second);
     problems.add(plans[other].place, plans[other].path,
                  "brick " + std::to_string(overlap.first) + " (" + plans[one].name + ") and brick " + std::to_string(overlap.second) +

@@ -101,7 +101,7 @@ class Reader {
       problems_.add(node->place, "model", "must be a table, [model]; is " + value_text(*node));
       return;
     }
-    for (const Member& member : *table) {
+    for (const KeyedNode& member : *table) {
       Setting setting{member.key, false, problems_.where(member.node.place)};
       if (const auto* truth = std::get_if<bool>(&member.node.value)) {
         setting.value = *truth;

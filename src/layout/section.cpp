@@ -65,7 +65,7 @@ std::string value_text(const Node& node) {
 
 Section::Section(const Node& node, std::string path, std::span<const std::string_view> known, Problems& problems)
     : table_(std::get_if<Table>(&node.value)), place_(node.place), path_(std::move(path)), problems_(&problems) {
-  for (const Member& member : *table_) {
+  for (const KeyedNode& member : *table_) {
     if (std::find(known.begin(), known.end(), member.key) != known.end()) continue;
     problems.add(member.place, path_of(member.key), "unknown key; the nearest known one is " + std::string(nearest_key(member.key, known)));
   }

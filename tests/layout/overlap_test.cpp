@@ -57,7 +57,7 @@ TEST_CASE("of bricks of all sizes, poses and headings the same pairs overlap as 
     }
     const auto expected = overlaps_by_trying_all(layout);
     std::vector<std::pair<BrickId, BrickId>> found;
-    for (const Overlap& overlap : find_overlaps(layout, 1'000'000)) found.emplace_back(overlap.first, overlap.second);
+    for (const OverlappingPair& overlap : find_overlaps(layout, 1'000'000)) found.emplace_back(overlap.first, overlap.second);
     CHECK(found == expected);
     seen += expected.size();
   }
