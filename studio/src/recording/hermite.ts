@@ -8,11 +8,14 @@ export interface Turn {
 }
 
 /**
- * Quintic Hermite polynomial through value, rate and acceleration at both ends.
+ * The angle is the quintic Hermite polynomial through angle, rate and acceleration at both ends, which fixes where a brick is.
+ * Rate and acceleration are drawn between what the model had at the knots (the rate by the cubic through rates and accelerations,
+ * the acceleration by a straight line) and not as derivatives of the quintic: an integrator such as explicit Euler moves the
+ * angle by the rate of half a step before, and the quintic's derivatives would show that as ripples that no model had.
  * @param s Where, 0 at the first knot and 1 at the second.
  * @param h Time between the knots [s], over 0.
  */
-export function quintic(
+export function turnBetweenKnots(
   s: number, h: number,
   p0: number, v0: number, a0: number,
   p1: number, v1: number, a1: number,
@@ -28,8 +31,8 @@ export function quintic(
   const c4 = -15 * dp + 7 * dv - da;
   const c5 = 6 * dp - 3 * dv + 0.5 * da;
   out.angle = p0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
-  out.rate = (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / h;
-  out.acceleration = (2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / (h * h);
+  out.rate = cubic(s, h, v0, a0, v1, a1);
+  out.acceleration = a0 + s * (a1 - a0);
 }
 
 /** Cubic Hermite polynomial through value and rate at both ends; `s` and `h` as above. */

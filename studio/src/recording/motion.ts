@@ -1,6 +1,6 @@
 /** What a brick does at a moment: the recorded tracks, interpolated. Before its first track it stands, after a track it rests as that left it. */
 
-import { cubic, quintic, type Turn } from './hermite.ts';
+import { cubic, turnBetweenKnots, type Turn } from './hermite.ts';
 import { hingedPose, newPose, tiltOf, type Pose } from './pose.ts';
 import { kFreeStride, type Recording } from './types.ts';
 
@@ -42,7 +42,7 @@ export function hingedTurn(recording: Recording, track: number, time: number, ou
   const h = hinged.time[k + 1] - hinged.time[k];
   const s = Math.min(1, Math.max(0, (t - hinged.time[k]) / h));
   const { angle, rate, acceleration } = hinged;
-  quintic(s, h, angle[k], rate[k], acceleration[k], angle[k + 1], rate[k + 1], acceleration[k + 1], out);
+  turnBetweenKnots(s, h, angle[k], rate[k], acceleration[k], angle[k + 1], rate[k + 1], acceleration[k + 1], out);
 }
 
 /** Pose of a brick on a free track at a time of the run [s]. */

@@ -1,6 +1,6 @@
 /** One brick's story for the inspector: its events, the curves of its motion, and what it does now. */
 
-import { quintic, type Turn } from './hermite.ts';
+import { turnBetweenKnots, type Turn } from './hermite.ts';
 import { isMoving, trackAt, turnAt } from './motion.ts';
 import { extentsOf, tipAngle } from './pose.ts';
 import { EventKind, kNoBrick, type Recording } from './types.ts';
@@ -84,7 +84,7 @@ export interface Curves {
 }
 
 const kDegrees = 180 / Math.PI;
-/** Points drawn between two knots: enough that a quintic looks smooth at the width of a panel. */
+/** Points drawn between two knots: enough that a turnBetweenKnots looks smooth at the width of a panel. */
 const kPointsBetween = 6;
 
 /** @returns null for a brick that never moves. */
@@ -143,7 +143,7 @@ function addHinged(recording: Recording, track: number, out: Curves): void {
     }
     for (let i = 1; i < kPointsBetween; i++) {
       const s = i / kPointsBetween;
-      quintic(s, h, angle[k], rate[k], acceleration[k], angle[k + 1], rate[k + 1], acceleration[k + 1], turn);
+      turnBetweenKnots(s, h, angle[k], rate[k], acceleration[k], angle[k + 1], rate[k + 1], acceleration[k + 1], turn);
       addPoint(out, start + time[k] + s * h, turn.angle, turn.rate, turn.acceleration);
     }
   }

@@ -224,7 +224,9 @@ function framePoints(recording: Recording, origin: readonly number[]): Vector3[]
   const points: Vector3[] = [];
   const add = (brick: number): void => {
     const [x, y, z] = [0, 1, 2].map((axis) => bricks.foot[3 * brick + axis] - origin[axis]);
-    points.push(new Vector3(x, y, z), new Vector3(x, y, z + extentsOf(recording, brick).up));
+    const { up } = extentsOf(recording, brick);
+    const heading = bricks.heading[brick];
+    points.push(new Vector3(x, y, z), new Vector3(x, y, z + up), new Vector3(x + up * Math.cos(heading), y + up * Math.sin(heading), z));
   };
   for (let brick = 0; brick < bricks.count; brick += step) add(brick);
   add(bricks.count - 1);

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { decodeRecording } from '../../src/recording/decode.ts';
-import { cubic, quintic } from '../../src/recording/hermite.ts';
+import { cubic, turnBetweenKnots } from '../../src/recording/hermite.ts';
 import { poseAt, turnAt } from '../../src/recording/motion.ts';
 import { Playhead } from '../../src/recording/playhead.ts';
 import { hingedPose, newPose, tiltOf } from '../../src/recording/pose.ts';
@@ -11,19 +11,20 @@ import { kHitStep, leaning, makeRecording, tiltsAt } from '../make_recording.ts'
 const recording = decodeRecording(makeRecording({ count: 30 }));
 
 describe('interpolation', () => {
-  test('the quintic gives back any polynomial of the fifth degree with its derivatives', () => {
+  test('the angle gives back any polynomial of the fifth degree, the rate one of the third, the acceleration a line', () => {
     const p = (t: number): number => 0.3 - t + 2 * t ** 2 + t ** 3 - 3 * t ** 4 + 0.7 * t ** 5;
     const v = (t: number): number => -1 + 4 * t + 3 * t ** 2 - 12 * t ** 3 + 3.5 * t ** 4;
     const a = (t: number): number => 4 + 6 * t - 36 * t ** 2 + 14 * t ** 3;
     const [t0, t1] = [0.2, 0.9];
     const out = { angle: 0, rate: 0, acceleration: 0 };
     for (const s of [0, 0.1, 0.5, 0.77, 1]) {
-      const t = t0 + s * (t1 - t0);
-      quintic(s, t1 - t0, p(t0), v(t0), a(t0), p(t1), v(t1), a(t1), out);
-      expect(out.angle).toBeCloseTo(p(t), 12);
-      expect(out.rate).toBeCloseTo(v(t), 11);
-      expect(out.acceleration).toBeCloseTo(a(t), 10);
+      turnBetweenKnots(s, t1 - t0, p(t0), v(t0), a(t0), p(t1), v(t1), a(t1), out);
+      expect(out.angle).toBeCloseTo(p(t0 + s * (t1 - t0)), 12);
+      expect(out.acceleration).toBeCloseTo(a(t0) + s * (a(t1) - a(t0)), 12);
     }
+    // A rate of the second degree, whose slopes at the ends are the accelerations there.
+    turnBetweenKnots(0.25, 2, 0, 1, 0, 0, 5, 4, out);
+    expect(out.rate).toBeCloseTo(1 + 0.5 ** 2, 12);
   });
 
   test('the cubic gives back any polynomial of the third degree', () => {
