@@ -88,6 +88,7 @@ export function installPageInterface(player: Player, stage: Stage): void {
     finishStill: async (frames) => {
       stage.drawFrame(0);
       await stage.view?.finishStill(frames);
+      stage.stillPart = 1;
     },
   };
 }

@@ -40,7 +40,7 @@ const kPips = /* glsl */ `
   vec3 mirrored(vec3 r, float facing) {
     float fresnel = 0.035 + 0.42 * pow(1.0 - facing, 5.0);
     float box = smoothstep(0.55, 0.95, dot(r, vec3(-0.25, 0.2, 0.947)));
-    vec3 light = mix(vec3(0.30, 0.27, 0.24), vec3(0.62, 0.68, 0.78), smoothstep(-0.15, 0.45, r.z)) + 2.2 * box;
+    vec3 light = mix(vec3(0.30, 0.27, 0.24), vec3(0.62, 0.68, 0.78), smoothstep(-0.15, 0.45, r.z)) + 1.2 * box;
     return fresnel * surroundings * light;
   }
 

@@ -19,7 +19,7 @@ export interface Mood {
   surroundings: number;
 }
 export const kMoods: Record<'light' | 'dark', Mood> = {
-  light: { sun: 2.6, sunColor: 0xffe2c0, sky: 2.9, skyColor: 0xe4ecff, bounce: 0xb5a999, surroundings: 1.0 },
+  light: { sun: 2.75, sunColor: 0xffdfba, sky: 2.75, skyColor: 0xe4ecff, bounce: 0xb5a999, surroundings: 1.0 },
   dark: { sun: 2.6, sunColor: 0xffdcb4, sky: 1.7, skyColor: 0xc4d6ff, bounce: 0x3a3d45, surroundings: 0.55 },
 };
 

@@ -4,7 +4,7 @@ import { CircleGeometry, Color, Fog, Mesh, MeshStandardMaterial, type Scene } fr
 
 /** Linear-light colours that come out as the design's table and background after tone mapping. */
 export const kTableColors = {
-  light: { table: 0xb9b0a5, background: 0xc2bbb3 },
+  light: { table: 0xc6bcb0, background: 0xcbc5bd },
   dark: { table: 0x3b3f47, background: 0x24272d },
 };
 
