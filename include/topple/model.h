@@ -33,7 +33,7 @@ struct FreeMotion {
   Vec3 velocity;          ///< Of the centre of mass [m/s].
   Vec3 angular_velocity;  ///< In world axes [rad/s].
 };
-/// A moment inside the last step at which the rate or the acceleration of a hinged brick jumped (a hit, a landing, a push).
+/// A moment since a hinged brick was last in a frame at which its rate or its acceleration jumped (a hit, a landing, a push).
 struct Kink {
   BrickId brick = kNoBrick;
   double time = 0.0;  ///< [s]
@@ -46,7 +46,8 @@ struct Energy {
   double push_work = 0.0;  ///< Put in by pushes so far [J].
 };
 
-/// Every brick that moved in the last step. A model fills `hinged` or `free`; the buffers are reused from step to step.
+/// The bricks that moved in the last step. One whose motion follows from others may be left out of some frames while it moves; one that
+/// comes to rest is in the frame of that step, with its phase. A model fills `hinged` or `free`; the buffers are reused from step to step.
 struct Frame {
   double time = 0.0;  ///< [s]
   std::vector<HingedMotion> hinged;

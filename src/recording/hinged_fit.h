@@ -34,7 +34,6 @@ class HingedFit {
   /// `still`: it rests, so its last knot moves no more.
   void close(bool still, TrackStore& out);
 
-  std::int64_t seen = -1;    ///< The last step in which it moved.
   std::int64_t kinked = -1;  ///< The last step in which it had a jump.
 
  private:

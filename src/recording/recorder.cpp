@@ -28,7 +28,6 @@ struct Recorder::Open {
   void wake(const HingedMotion& motion);
   void take_kinks();
   void take_hinged();
-  void pause_absent();
   void close_long_paused();
   void close(HingedFit& fit, bool still);
   void take_energy(std::int64_t step_count);
@@ -42,7 +41,6 @@ struct Recorder::Open {
   std::vector<std::int32_t> slot;  // Of each brick, its place in `fits`, or kClosed.
   std::vector<HingedFit> fits;
   std::vector<std::int32_t> unused;  // Places in `fits`.
-  std::int64_t moving = 0;           // Open and not paused.
   Track last;                        // A buffer.
 };
 
@@ -55,7 +53,6 @@ HingedFit& Recorder::Open::begin(BrickId brick, double time, HingedState state) 
   const std::int32_t index = unused.back();
   unused.pop_back();
   slot[static_cast<std::size_t>(brick)] = index;
-  ++moving;
 
   const BrickKind& kind = store.layout.kind_of(brick);
   const Extents size = extents(kind, store.layout.bricks[static_cast<std::size_t>(brick)].stance);
@@ -78,16 +75,15 @@ void Recorder::Open::take_kinks() {
     const std::int32_t index = slot[static_cast<std::size_t>(kink.brick)];
     if (index == kClosed) {
       HingedFit& fit = begin(kink.brick, kink.time, kink.after);
-      fit.kinked = fit.seen = step;
+      fit.kinked = step;
       continue;
     }
     HingedFit& fit = fits[static_cast<std::size_t>(index)];
     if (fit.paused()) {
       fit.resume(kink.time, store.tracks);
-      ++moving;
     }
     fit.add_kink(kink, time_step, store.tracks);
-    fit.kinked = fit.seen = step;
+    fit.kinked = step;
   }
 }
 
@@ -105,12 +101,10 @@ void Recorder::Open::wake(const HingedMotion& motion) {
     begin(motion.brick, time, {angle, 0.0, motion.state.acceleration});
   } else {
     fits[static_cast<std::size_t>(index)].resume(time, store.tracks);
-    ++moving;
   }
 }
 
 void Recorder::Open::take_hinged() {
-  std::int64_t falling = 0;
   for (const HingedMotion& motion : frame.hinged) {
     if (!is_finite(motion.state)) continue;
     std::int32_t index = slot[static_cast<std::size_t>(motion.brick)];
@@ -120,23 +114,11 @@ void Recorder::Open::take_hinged() {
       index = slot[static_cast<std::size_t>(motion.brick)];
     }
     HingedFit& fit = fits[static_cast<std::size_t>(index)];
-    fit.seen = step;
     if (motion.phase != Phase::falling) {
       fit.pause(frame.time, motion.state, store.tracks);
-      --moving;
     } else {
-      ++falling;
       if (fit.kinked != step || !fit.at(frame.time)) fit.add(frame.time, motion.state, store.tracks);
     }
-  }
-  if (falling != moving) pause_absent();
-}
-
-void Recorder::Open::pause_absent() {
-  for (HingedFit& fit : fits) {
-    if (!fit.is_open() || fit.paused() || fit.seen == step) continue;
-    fit.pause();
-    --moving;
   }
 }
 
@@ -150,7 +132,6 @@ void Recorder::Open::close(HingedFit& fit, bool still) {
   std::int32_t& index = slot[static_cast<std::size_t>(fit.brick())];
   unused.push_back(index);
   index = kClosed;
-  if (!fit.paused()) --moving;
   fit.close(still, store.tracks);
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 
 double tilt_after(const pivot::Turning& body, double theta, double duration, int steps, Integrator integrator) {
-  pivot::Fall fall{.time = 0.0, .theta = theta, .omega = 0.0};
+  pivot::Fall fall = pivot::fall_at(0.0, theta, 0.0);
   for (int i = 1; i <= steps; ++i) fall = pivot::advance(body, fall, duration * i / steps, integrator);
   return fall.theta;
 }

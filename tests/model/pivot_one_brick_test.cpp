@@ -48,7 +48,7 @@ TEST_CASE("five_thousandths_of_a_newton_lift_the_brick_and_it_returns_to_standin
 TEST_CASE("explicit_euler_follows_the_printed_recurrence") {
   const BrickKind kind = report_kind(0.0085);
   const pivot::Turning body = pivot::turning(extents(kind, Stance::standing), kind.mass, 9.81, InertiaRule::report);
-  const pivot::Fall from{.time = 1.0, .theta = 0.3, .omega = 2.0};
+  const pivot::Fall from = pivot::fall_at(1.0, 0.3, 2.0);
   const pivot::Fall to = pivot::advance(body, from, 1.0005, Integrator::euler);
   // (2.3), (2.4), (3.1), (3.2), with the C library's sine and cosine.
   const double d = 0.5 * kind.thickness * std::cos(0.3) - 0.5 * kind.height * std::sin(0.3);
@@ -78,7 +78,7 @@ TEST_CASE("runge_kutta_keeps_the_energy_of_a_free_fall") {
   const auto energy = [&](const pivot::Fall& f) {
     return 0.5 * f.omega * f.omega + body.sine * std::cos(f.theta) + body.cosine * std::sin(f.theta);
   };
-  pivot::Fall fall{.time = 0.0, .theta = 0.2, .omega = 0.0};
+  pivot::Fall fall = pivot::fall_at(0.0, 0.2, 0.0);
   const double before = energy(fall);
   for (int i = 1; fall.theta < kRightAngle; ++i) fall = pivot::advance(body, fall, 0.0005 * i, Integrator::rk4);
   // Fifth-order errors of 400 steps of 0.5 ms against a time scale of 35 ms: (0.5 / 35)^4 = 4e-8 relative.

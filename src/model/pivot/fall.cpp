@@ -3,15 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/trigonometry.h"
-
 namespace topple::pivot {
-
-double Turning::acceleration(double theta, double time) const {
-  const SinCos tilt = sin_cos(theta);
-  const double gravity = sine * tilt.sin - cosine * tilt.cos;
-  return time < push_until ? push + gravity : gravity;
-}
 
 double moment_of_inertia(const Extents& size, double mass, InertiaRule rule) {
   // [Arnesson2020] (2.4) divides by 12, which is about the centre of mass; the brick turns about an edge, where it is 3 (Steiner).
@@ -26,40 +18,37 @@ Turning turning(const Extents& size, double mass, double gravity, InertiaRule ru
 
 namespace {
 
-Fall euler(const Turning& body, const Fall& from, double h) {
+Fall euler(const Turning& body, const Fall& from, double until) {
   // [Arnesson2020] (3.1) and (3.2): both right sides at the old time.
-  return {.time = from.time + h,
-          .theta = from.theta + h * from.omega,
-          .omega = from.omega + h * body.acceleration(from.theta, from.time)};
+  const double h = until - from.time;
+  return fall_at(until, from.theta + h * from.omega, from.omega + h * body.acceleration(from.turned, from.time));
 }
 
-Fall semi_implicit(const Turning& body, const Fall& from, double h) {
-  const double omega = from.omega + h * body.acceleration(from.theta, from.time);
-  return {.time = from.time + h, .theta = from.theta + h * omega, .omega = omega};
+Fall semi_implicit(const Turning& body, const Fall& from, double until) {
+  const double h = until - from.time;
+  const double omega = from.omega + h * body.acceleration(from.turned, from.time);
+  return fall_at(until, from.theta + h * omega, omega);
 }
 
-Fall rk4(const Turning& body, const Fall& from, double h) {
+Fall rk4(const Turning& body, const Fall& from, double until) {
   // No force begins or ends inside the step (advance() splits it there), so every stage sees the force of its beginning.
   const double t = from.time;
-  const double k1 = body.acceleration(from.theta, t);
+  const double h = until - t;
+  const double k1 = body.acceleration(from.turned, t);
   const double w2 = from.omega + 0.5 * h * k1;
-  const double k2 = body.acceleration(from.theta + 0.5 * h * from.omega, t);
+  const double k2 = body.acceleration(sin_cos(from.theta + 0.5 * h * from.omega), t);
   const double w3 = from.omega + 0.5 * h * k2;
-  const double k3 = body.acceleration(from.theta + 0.5 * h * w2, t);
+  const double k3 = body.acceleration(sin_cos(from.theta + 0.5 * h * w2), t);
   const double w4 = from.omega + h * k3;
-  const double k4 = body.acceleration(from.theta + h * w3, t);
-  return {.time = t + h,
-          .theta = from.theta + h / 6.0 * (from.omega + 2.0 * w2 + 2.0 * w3 + w4),
-          .omega = from.omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)};
+  const double k4 = body.acceleration(sin_cos(from.theta + h * w3), t);
+  return fall_at(until, from.theta + h / 6.0 * (from.omega + 2.0 * w2 + 2.0 * w3 + w4),
+                 from.omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4));
 }
 
 Fall one_step(const Turning& body, const Fall& from, double until, Integrator integrator) {
-  const double h = until - from.time;
-  Fall to = integrator == Integrator::euler           ? euler(body, from, h)
-            : integrator == Integrator::semi_implicit ? semi_implicit(body, from, h)
-                                                      : rk4(body, from, h);
-  to.time = until;
-  return to;
+  if (integrator == Integrator::euler) return euler(body, from, until);
+  if (integrator == Integrator::semi_implicit) return semi_implicit(body, from, until);
+  return rk4(body, from, until);
 }
 
 }  // namespace
@@ -74,6 +63,10 @@ double time_of_passing(const Turning& body, const Fall& from, double until, doub
   double high = until;
   double below = from.theta - theta;
   if (below >= 0.0) return from.time;
+  // Most steps end far below, whatever acts on the brick.
+  const double h = until - from.time;
+  const double most = std::fabs(from.omega) + h * (body.sine + body.cosine + std::fabs(body.push));
+  if (below + h * most < 0.0) return std::numeric_limits<double>::infinity();
   double above = advance(body, from, until, integrator).theta - theta;
   if (!(above >= 0.0)) return std::numeric_limits<double>::infinity();
   // Regula falsi, the value of an end kept twice halved (Illinois); Euler's step is linear in time, so that the first guess is exact.

@@ -1,6 +1,7 @@
 /// One brick turning about its lower edge: the report's equation of motion and three ways to integrate it.
 #pragma once
 
+#include "base/trigonometry.h"
 #include "topple/layout.h"
 #include "topple/model.h"
 
@@ -14,15 +15,21 @@ struct Turning {
   double push = 0.0;         ///< F r / I while the force acts [1/s^2]
   double push_until = 0.0;   ///< [s]
 
-  double acceleration(double theta, double time) const;  ///< [rad/s^2]
+  /// At a tilt whose sine and cosine are `turned`, at a time [rad/s^2].
+  double acceleration(const SinCos& turned, double time) const {
+    const double gravity = sine * turned.sin - cosine * turned.cos;
+    return time < push_until ? push + gravity : gravity;
+  }
 };
 
-/// Tilt and its derivatives at a time.
+/// Tilt and its derivative at a time; the sine and cosine of the tilt are kept with it, since everything asks for them.
 struct Fall {
   double time = 0.0;   ///< [s]
   double theta = 0.0;  ///< [rad]
   double omega = 0.0;  ///< [rad/s]
+  SinCos turned;       ///< Of theta.
 };
+inline Fall fall_at(double time, double theta, double omega) { return {time, theta, omega, sin_cos(theta)}; }
 
 /// Moment of inertia about the edge it turns on, or as the report prints it, about the centre of mass [kg m^2].
 double moment_of_inertia(const Extents& size, double mass, InertiaRule rule);

@@ -54,7 +54,7 @@ void PivotModel::push(BrickId brick, std::size_t index, double time) {
     moving.fall.omega += impulse * height / inertia;
   }
   push_work_ += 0.5 * inertia * (moving.fall.omega * moving.fall.omega - before.rate * before.rate);
-  moving.acceleration = moving.turning.acceleration(moving.fall.theta, time);
+  moving.acceleration = moving.turning.acceleration(moving.fall.turned, time);
   kink(moving, time, before, {moving.fall.theta, moving.fall.omega, moving.acceleration});
   const Vec3& foot = layout_.bricks[static_cast<std::size_t>(brick)].foot;
   const Vec3 point = std::isnan(height) ? Vec3{kNone, kNone, kNone} : foot + Vec3{0.0, 0.0, height};
@@ -89,7 +89,7 @@ void PivotModel::find_hit(const Moving& hitter) {
 double PivotModel::report_force(const Moving& hitter, double time) const {
   // [Arnesson2020] (2.5): F = I alpha / H, with alpha by (2.3). A force that still acts counts with its arm on a pushed brick, and with
   // the full height on a struck one, as (2.5) is printed, so that along a row it grows by the same amount at each brick.
-  const double gravity = hitter.body->inertia * hitter.turning.acceleration(hitter.fall.theta, hitter.turning.push_until);
+  const double gravity = hitter.body->inertia * hitter.turning.acceleration(hitter.fall.turned, hitter.turning.push_until);
   const double torque = time < hitter.turning.push_until ? hitter.report_torque : 0.0;
   return (torque + gravity) / hitter.body->size.up;
 }
@@ -110,15 +110,15 @@ void PivotModel::hand_on(const Hit& hit) {
     struck.push_back(pair);
     struck_inertia += moving_.body_of(pair.ahead()).inertia;
   }
-  hitter.fall.theta = contact_angle;
+  hitter.fall = fall_at(hit.time, contact_angle, hitter.fall.omega);
   const double restitution = pair_restitution(layout_.kind_of(hit.hitter), layout_.kind_of(hit.struck));
   // For one brick of the same kind this is (1 + e) / 2 of the hitter's angular velocity.
   const double omega = (1.0 + restitution) * hitter.body->inertia / (hitter.body->inertia + struck_inertia) * hitter.fall.omega;
   const double force = report_force(hitter, hit.time) / static_cast<double>(struck.size());
-  const HingedState before{contact_angle, hitter.fall.omega, hitter.turning.acceleration(contact_angle, hit.time)};
+  const HingedState before{contact_angle, hitter.fall.omega, hitter.turning.acceleration(hitter.fall.turned, hit.time)};
   hitter.fall.omega = 0.0;  // From now on gravity alone moves it.
   hitter.turning.push_until = hit.time;
-  hitter.acceleration = hitter.turning.acceleration(contact_angle, hit.time);
+  hitter.acceleration = hitter.turning.acceleration(hitter.fall.turned, hit.time);
   kink(hitter, hit.time, before, {contact_angle, 0.0, hitter.acceleration});
   for (const Pair& pair : struck) strike({hit.time, hit.hitter, pair.ahead()}, pair, omega, force);
 }
@@ -148,7 +148,7 @@ void PivotModel::strike(const Hit& hit, const Pair& pair, double omega, double f
       event.force = force;
       event.impulse = force * config_.pulse;
     }
-    moving.acceleration = moving.turning.acceleration(0.0, hit.time);
+    moving.acceleration = moving.turning.acceleration(moving.fall.turned, hit.time);
     kink(moving, hit.time, {}, {0.0, moving.fall.omega, moving.acceleration});
   }
   const Moving& moving = *moving_.find(hit.struck);

@@ -91,30 +91,30 @@ double Pair::distance(double behind, double ahead) const {
   return separation(b, a);
 }
 
-Bound Pair::bound_in_line(double ahead, double ahead_rate) const {
-  const SinCos a = sin_cos(ahead);
+Bound Pair::bound_in_line(const Ahead& ahead) const {
+  const SinCos& a = ahead.turned;
   const double rise = (pitch_ * a.cos - thickness_) / height_;
   if (rise >= 0.0) {
     // The upper edge on the rear face ahead: H sin(theta - ahead) = p cos(ahead) - T.
-    const double angle = arc_sine(rise);
-    return {.theta = ahead + angle, .rate = ahead_rate * (1.0 - pitch_ * a.sin / (height_ * std::sqrt(1.0 - rise * rise)))};
+    const double level = std::sqrt(1.0 - rise * rise);
+    return {.theta = ahead.theta + arc_tangent(rise, level), .rate = ahead.omega * (1.0 - pitch_ * a.sin / (height_ * level))};
   }
   // The front face on the lower rear edge ahead: p cos(theta) = T cos(theta - ahead).
   const double x = pitch_ - thickness_ * a.cos;
   const double z = thickness_ * a.sin;
   const double turn = (thickness_ * a.sin * z - x * thickness_ * a.cos) / (x * x + z * z);
-  return {.theta = arc_tangent(x, z), .rate = ahead_rate * turn};
+  return {.theta = arc_tangent(x, z), .rate = ahead.omega * turn, .on_rear_edge = true};
 }
 
-Bound Pair::bound(double from, double to, double ahead, double ahead_rate) const {
+Bound Pair::bound(double from, double to, const Ahead& ahead) const {
   if (in_line_) {
-    const Bound bound = bound_in_line(ahead, ahead_rate);
+    const Bound bound = bound_in_line(ahead);
     return bound.theta >= from ? bound : Bound{.theta = from, .rate = 0.0};
   }
-  if (to <= from || distance(to, ahead) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = 0.0};
-  if (distance(from, ahead) < 0.0) return {.theta = from, .rate = 0.0};
-  const double theta = falling_root([this, ahead](double t) { return distance(t, ahead); }, from, to);
-  return {.theta = theta, .rate = ahead_rate * bound_slope(theta, ahead)};
+  if (to <= from || distance(to, ahead.theta) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = 0.0};
+  if (distance(from, ahead.theta) < 0.0) return {.theta = from, .rate = 0.0};
+  const double theta = falling_root([&](double t) { return distance(t, ahead.theta); }, from, to);
+  return {.theta = theta, .rate = ahead.omega * bound_slope(theta, ahead.theta)};
 }
 
 double Pair::bound_slope(double behind, double ahead) const {
@@ -127,7 +127,7 @@ double Pair::bound_slope(double behind, double ahead) const {
 
 std::optional<double> Pair::fall_back_stop(double behind, double from, double to) const {
   const double touching = kTouching * (in_line_ ? thickness_ / height_ : thickness_);
-  const auto apart = [&](double ahead) { return (in_line_ ? bound_in_line(ahead, 0.0).theta - behind : distance(behind, ahead)) - touching; };
+  const auto apart = [&](double ahead) { return (in_line_ ? bound_in_line({ahead, 0.0, sin_cos(ahead)}).theta - behind : distance(behind, ahead)) - touching; };
   if (apart(to) >= 0.0) return std::nullopt;
   if (apart(from) < 0.0) return from;
   // In terms of how far it has fallen back, the distance falls.

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "base/trigonometry.h"
 #include "topple/layout.h"
 
 namespace topple::pivot {
@@ -12,6 +13,14 @@ namespace topple::pivot {
 struct Bound {
   double theta = 0.0;  ///< [rad]
   double rate = 0.0;   ///< [rad/s]
+  bool on_rear_edge = false;  ///< Its face lies on the lower rear edge ahead, instead of its edge on the rear face.
+};
+
+/// What the bound depends on: the brick ahead as it is now.
+struct Ahead {
+  double theta = 0.0;  ///< [rad]
+  double omega = 0.0;  ///< [rad/s]
+  SinCos turned;       ///< Of theta.
 };
 
 /// A brick (behind) and one that it can reach (ahead). `side` is +1 for a brick that turns about its toe, -1 about its heel.
@@ -28,16 +37,16 @@ class Pair {
   /// Height at which it then touches [m].
   double contact_height() const { return contact_height_; }
 
-  /// Bound on the tilt of the brick behind, which comes from `from` and would like to get to `to` [rad], when the one ahead has turned
-  /// to `ahead` at `ahead_rate`. At least `from`; more than `to` if nothing is in the way.
-  Bound bound(double from, double to, double ahead, double ahead_rate) const;
+  /// Bound on the tilt of the brick behind, which comes from `from` and would like to get to `to` [rad], when the one ahead is as
+  /// `ahead` says. At least `from`; more than `to` if nothing is in the way.
+  Bound bound(double from, double to, const Ahead& ahead) const;
 
   /// Where the one ahead stops when it falls back from `from` to `to` (<= from) onto the one behind at tilt `behind` [rad], if it does.
   std::optional<double> fall_back_stop(double behind, double from, double to) const;
 
  private:
   double distance(double behind, double ahead) const;
-  Bound bound_in_line(double ahead, double ahead_rate) const;
+  Bound bound_in_line(const Ahead& ahead) const;
   double bound_slope(double behind, double ahead) const;
   void find_contact(double height);
 

@@ -1,6 +1,7 @@
 #include "model/pivot/moving_set.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace topple::pivot {
 
@@ -18,6 +19,7 @@ MovingSet::MovingSet(const Layout& layout, const PivotConfig& config, Lines line
       bodies_.push_back({.size = size,
                          .mass = kind.mass,
                          .inertia = moment_of_inertia(size, kind.mass, config.inertia),
+                         .settle = std::sqrt(size.up / layout.gravity),
                          .turning = turning(size, kind.mass, layout.gravity, config.inertia)});
     }
   }
@@ -33,14 +35,26 @@ Moving* MovingSet::find(BrickId brick) {
   return slot < 0 ? nullptr : &(*this)[slot];
 }
 
+const Moving* MovingSet::find(BrickId brick) const {
+  const std::int32_t slot = slot_[at(brick)];
+  return slot < 0 ? nullptr : &(*this)[slot];
+}
+
+const Moving* MovingSet::find_behind(BrickId brick) const {
+  const BrickId behind = lines_.behind[at(brick)];
+  return behind == kNoBrick ? nullptr : find(behind);
+}
+
 double MovingSet::tilt(BrickId brick) const {
   const std::int32_t slot = slot_[at(brick)];
   return slot < 0 ? double{still(brick).tilt} : (*this)[slot].fall.theta;
 }
 
-double MovingSet::rate(BrickId brick) const {
-  const std::int32_t slot = slot_[at(brick)];
-  return slot < 0 ? 0.0 : (*this)[slot].fall.omega;
+Ahead MovingSet::as_ahead(BrickId brick) const {
+  const Moving* moving = find(brick);
+  if (moving != nullptr) return {moving->fall.theta, moving->fall.omega, moving->fall.turned};
+  const double theta = still(brick).tilt;
+  return {theta, 0.0, sin_cos(theta)};
 }
 
 bool MovingSet::after(std::int32_t a, std::int32_t b) const {
@@ -58,8 +72,11 @@ Moving& MovingSet::wake(BrickId brick, double time) {
   free_.pop_back();
   slot_[at(brick)] = slot;
   Moving& moving = (*this)[slot];
-  std::vector<Pair> ahead = std::move(moving.ahead);  // Keeps its memory.
+  // These keep their memory.
+  std::vector<Pair> ahead = std::move(moving.ahead);
+  std::vector<Kink> kinks = std::move(moving.kinks);
   ahead.clear();
+  kinks.clear();
   const std::int8_t side = lines_.side[at(brick)];
   for (BrickId next = lines_.ahead[at(brick)]; next != kNoBrick; next = lines_.sibling[at(next)]) {
     ahead.emplace_back(layout_, brick, side, next, lines_.side[at(next)]);
@@ -67,9 +84,12 @@ Moving& MovingSet::wake(BrickId brick, double time) {
   const Body& body = body_of(brick);
   const double tilt = still(brick).tilt;
   moving = Moving{.brick = brick, .depth = lines_.depth[at(brick)], .side = side, .body = &body, .turning = body.turning};
-  moving.fall = {.time = time, .theta = tilt};
-  moving.kink_time = -1.0;
+  moving.fall = fall_at(time, tilt, 0.0);
+  for (const Pair& pair : ahead) {
+    if (Moving* leant_on = find(pair.ahead())) leant_on->follows = false;
+  }
   moving.ahead = std::move(ahead);
+  moving.kinks = std::move(kinks);
   const BrickId behind = lines_.behind[at(brick)];
   if (behind != kNoBrick && slot_[at(behind)] < 0 && still(behind).tilt > 0.0F) {
     moving.behind.emplace(layout_, behind, lines_.side[at(behind)], brick, side);

@@ -17,6 +17,7 @@ struct Body {
   Extents size;          ///< [m]
   double mass = 0.0;     ///< [kg]
   double inertia = 0.0;  ///< [kg m^2]
+  double settle = 0.0;   ///< sqrt(H / g): the time scale of its fall [s].
   Turning turning;
 };
 
@@ -27,6 +28,8 @@ struct Moving {
   std::int8_t side = 1;  ///< +1 about its toe, -1 about its heel.
   Phase phase = Phase::falling;
   bool leaning = false;  ///< Held by a brick ahead.
+  bool on_rear_edge = false;  ///< How it leans, see Bound.
+  bool follows = false;  ///< Leans, and so do its neighbours: nothing needs it at every step.
   bool held_up = false;  ///< Fell back onto the brick behind it.
   const Body* body = nullptr;
   Turning turning;            ///< With the force that acts on this brick.
@@ -34,8 +37,7 @@ struct Moving {
   double acceleration = 0.0;  ///< Now [rad/s^2].
   double report_torque = 0.0; ///< Of the force that acts on it, with the arm that (2.5) gives it [N m].
   std::int32_t first_push = 0;            ///< The push that began its line.
-  double kink_time = 0.0;                 ///< Of its last kink [s].
-  HingedState kink_before, kink_after;    ///< At that time.
+  std::vector<Kink> kinks;                ///< Its latest, for those that follow it.
   std::vector<Pair> ahead;                ///< One for each brick that it strikes.
   std::optional<Pair> behind;             ///< With the brick behind while that one rests on it.
 };
@@ -50,8 +52,10 @@ class MovingSet {
   const Moving& operator[](std::int32_t slot) const { return pool_[static_cast<std::size_t>(slot)]; }
 
   Moving* find(BrickId brick);        ///< Null if it does not move.
-  double tilt(BrickId brick) const;   ///< Of any brick [rad].
-  double rate(BrickId brick) const;   ///< Of any brick [rad/s].
+  const Moving* find(BrickId brick) const;
+  const Moving* find_behind(BrickId brick) const;  ///< The brick behind, if that one moves.
+  double tilt(BrickId brick) const;      ///< Of any brick [rad].
+  Ahead as_ahead(BrickId brick) const;   ///< Any brick, for the one behind it.
   const Lines& lines() const { return lines_; }
 
   Moving& wake(BrickId brick, double time);

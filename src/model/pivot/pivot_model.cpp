@@ -18,6 +18,10 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // sqrt(H / g); it wakes when the brick ahead would let it move further than that. Ten times finer than what a recording keeps.
 constexpr double kRestTolerance = 1e-4;
 
+// A brick that leans on one that leans has no motion of its own: its tilt follows from the one ahead and moves nothing, so it is looked
+// at only at every eighth step (and at its kinks), some forty times finer than the fall of a brick.
+constexpr std::int64_t kFollowStride = 8;
+
 double rest_angle(const Body& body) { return kRestTolerance * body.size.along / body.size.up; }
 
 }  // namespace
@@ -54,57 +58,83 @@ Status PivotModel::step() {
 }
 
 void PivotModel::turn_bricks() {
-  for (const std::int32_t slot : moving_.order()) turn(moving_[slot]);
+  const bool look_at_all = step_count_ % kFollowStride == 0;
+  for (const std::int32_t slot : moving_.order()) {
+    if (look_at_all || !moving_[slot].follows) turn(moving_[slot]);
+  }
 }
 
 void PivotModel::turn(Moving& moving) {
+  if (moving.leaning && stay_leaning(moving)) return;
+  moving.leaning = false;
+  while (moving.fall.time < begin_) {
+    // It followed until now and parts: its own motion, step by step.
+    const double next = std::fmin(begin_, moving.fall.time + config_.time_step);
+    moving.fall = advance(moving.turning, moving.fall, next, config_.integrator);
+  }
   const Fall from = moving.fall;
   Fall to = advance(moving.turning, from, end_, config_.integrator);
   if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) to = {.time = end_};  // Back on its foot.
-  bool held_up = false;
-  if (to.omega < 0.0) stop_on_brick_behind(moving, from, to, held_up);
-  moving.held_up = held_up;
-  lean(moving, from, to);
-  if (to.theta >= kRightAngle) land(moving, from, to);
-  note_arrival(moving, from, to);
+  moving.held_up = to.omega < 0.0 && stop_on_brick_behind(moving, from, to);
+  moving.acceleration = moving.turning.acceleration(to.turned, end_);
+  if (const auto [bound, pair] = tightest_bound(moving, to.theta); pair != nullptr && to.theta >= bound.theta) {
+    catch_up(moving, from, to, bound, pair->ahead());
+    lean(moving, from, bound, to.omega);
+  } else {
+    if (to.theta >= kRightAngle) land(moving, from, to);
+    moving.fall = to;
+  }
+  note_arrival(moving, from, moving.fall);
   if (from.time < moving.turning.push_until) push_work_ += moving.turning.push * moving.body->inertia * (to.theta - from.theta);
-  moving.fall = to;
 }
 
-void PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to, bool& held_up) const {
+bool PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const {
   const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
-  if (behind == kNoBrick || moving_.tilt(behind) == 0.0) return;
+  if (behind == kNoBrick || moving_.tilt(behind) == 0.0) return false;
   const Pair pair(layout_, behind, moving_.lines().side[static_cast<std::size_t>(behind)], moving.brick, moving.side);
   const auto stop = pair.fall_back_stop(moving_.tilt(behind), from.theta, std::fmin(from.theta, to.theta));
-  if (!stop) return;
-  to = {.time = end_, .theta = *stop};
-  held_up = true;
+  if (stop) to = fall_at(end_, *stop, 0.0);
+  return stop.has_value();
 }
 
-void PivotModel::lean(Moving& moving, const Fall& from, Fall& to) {
-  const bool was_leaning = moving.leaning;
-  moving.leaning = false;
-  const double dt = end_ - from.time;
-  double acceleration = moving.turning.acceleration(to.theta, end_);
+std::pair<Bound, const Pair*> PivotModel::tightest_bound(const Moving& moving, double to) const {
+  std::pair<Bound, const Pair*> tightest{{}, nullptr};
   for (const Pair& pair : moving.ahead) {
-    const double tilt = moving_.tilt(pair.ahead());
+    const Ahead ahead = moving_.as_ahead(pair.ahead());
     // What stands and was not struck yet is not leant on: the hit was looked for already.
-    if (tilt == 0.0 && !moving_.still(pair.ahead()).struck) continue;
-    const Bound bound = pair.bound(from.theta, to.theta, tilt, moving_.rate(pair.ahead()));
-    if (to.theta < bound.theta) continue;
-    if (was_leaning) {
-      follow_kink(moving, pair);
-    } else {
-      catch_up(moving, from, to, bound, pair.ahead());
-    }
-    moving.leaning = true;
-    to = {.time = end_, .theta = bound.theta, .omega = std::fmin(bound.rate, to.omega)};
-    const bool kinked = moving.kink_time > from.time;
-    const double since = end_ - (kinked ? moving.kink_time : from.time);
-    const double earlier = kinked ? moving.kink_after.rate : from.omega;
-    acceleration = since > 1e-3 * dt ? (to.omega - earlier) / since : moving.acceleration;
+    if (ahead.theta == 0.0 && !moving_.still(pair.ahead()).struck) continue;
+    const Bound bound = pair.bound(moving.fall.theta, to, ahead);
+    if (tightest.second == nullptr || bound.theta < tightest.first.theta) tightest = {bound, &pair};
   }
-  moving.acceleration = acceleration;
+  return tightest;
+}
+
+bool PivotModel::stay_leaning(Moving& moving) {
+  const Fall from = moving.fall;
+  const double dt = end_ - from.time;
+  const double gravity = moving.turning.acceleration(from.turned, from.time);
+  // Alone it would fall so far; it parts from the brick ahead when that one leaves it more room.
+  const double alone = from.theta + dt * (from.omega + 0.5 * dt * gravity);
+  const auto [bound, pair] = tightest_bound(moving, alone);
+  if (pair == nullptr || bound.theta > alone) return false;
+  if (bound.on_rear_edge != moving.on_rear_edge) {
+    slip_over_edge(moving, bound);
+  } else {
+    follow_kinks(moving, *pair);
+  }
+  lean(moving, from, bound, from.omega + dt * gravity);
+  note_arrival(moving, from, moving.fall);
+  return true;
+}
+
+void PivotModel::lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone) {
+  moving.leaning = true;
+  moving.on_rear_edge = bound.on_rear_edge;
+  moving.fall = fall_at(end_, bound.theta, std::fmin(bound.rate, omega_alone));
+  const bool kinked = !moving.kinks.empty() && moving.kinks.back().time > from.time;
+  const double since = end_ - (kinked ? moving.kinks.back().time : from.time);
+  const double earlier = kinked ? moving.kinks.back().after.rate : from.omega;
+  if (since > 1e-3 * (end_ - from.time)) moving.acceleration = (moving.fall.omega - earlier) / since;
 }
 
 void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead) {
@@ -123,22 +153,35 @@ void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, cons
   note(EventKind::landed, time, moving.brick, ahead);
 }
 
-void PivotModel::follow_kink(Moving& moving, const Pair& pair) {
+void PivotModel::follow_kinks(Moving& moving, const Pair& pair) {
   const Moving* ahead = moving_.find(pair.ahead());
-  if (ahead == nullptr || !pair.in_line() || ahead->kink_time <= begin_ || ahead->kink_time < moving.fall.time) return;
-  const HingedState& b = ahead->kink_before;
-  const HingedState& a = ahead->kink_after;
-  const Bound before = pair.bound(0.0, kRightAngle, b.angle, b.rate);
-  const Bound after = pair.bound(0.0, kRightAngle, a.angle, a.rate);
-  kink(moving, ahead->kink_time, {before.theta, before.rate, moving.acceleration}, {after.theta, after.rate, moving.acceleration});
+  if (ahead == nullptr || !pair.in_line()) return;
+  for (const Kink& k : ahead->kinks) {
+    if (k.time <= moving.fall.time || k.time >= end_) continue;
+    const SinCos turned = sin_cos(k.after.angle);
+    const Bound before = pair.bound(0.0, kRightAngle, {k.before.angle, k.before.rate, turned});
+    const Bound after = pair.bound(0.0, kRightAngle, {k.after.angle, k.after.rate, turned});
+    kink(moving, k.time, {before.theta, before.rate, moving.acceleration}, {after.theta, after.rate, moving.acceleration});
+  }
+}
+
+void PivotModel::slip_over_edge(Moving& moving, const Bound& bound) {
+  // The bound is continuous where the contact changes, its rate is not: where the tangents from before and after meet.
+  const Fall& from = moving.fall;
+  const double dt = end_ - from.time;
+  const double change = from.omega - bound.rate;
+  if (change == 0.0) return;
+  const double since = std::clamp((bound.theta - bound.rate * dt - from.theta) / change, 0.0, dt);
+  const double theta = from.theta + since * from.omega;
+  kink(moving, from.time + since, {theta, from.omega, moving.acceleration}, {theta, bound.rate, moving.acceleration});
 }
 
 void PivotModel::land(Moving& moving, const Fall& from, Fall& to) {
   const double share = to.theta > from.theta ? (kRightAngle - from.theta) / (to.theta - from.theta) : 0.0;
   const double time = from.time + share * (end_ - from.time);
   const double omega = from.omega + share * (to.omega - from.omega);
-  kink(moving, time, {kRightAngle, omega, moving.turning.acceleration(kRightAngle, time)}, {kRightAngle, 0.0, 0.0});
-  to = {.time = end_, .theta = kRightAngle};
+  kink(moving, time, {kRightAngle, omega, moving.turning.acceleration(to.turned, time)}, {kRightAngle, 0.0, 0.0});
+  to = fall_at(end_, kRightAngle, 0.0);
   moving.acceleration = 0.0;
   MovingSet::Still& still = moving_.still(moving.brick);
   if (!still.landed) note(EventKind::landed, time, moving.brick);
@@ -162,6 +205,7 @@ Status PivotModel::check_and_hash() {
   Status status;
   for (const std::int32_t slot : moving_.order()) {
     const Moving& moving = moving_[slot];
+    if (moving.fall.time != end_) continue;
     hash_.add(static_cast<std::uint64_t>(moving.brick));
     hash_.add(moving.fall.theta);
     hash_.add(moving.fall.omega);
@@ -182,19 +226,33 @@ bool PivotModel::at_rest(Moving& moving) {
     const Moving* ahead = moving_.find(pair.ahead());
     if (ahead != nullptr && !ahead->leaning && !ahead->held_up) return false;
   }
-  return std::fabs(moving.fall.omega) * std::sqrt(moving.body->size.up / layout_.gravity) < rest_angle(*moving.body);
+  return std::fabs(moving.fall.omega) * moving.body->settle < rest_angle(*moving.body);
+}
+
+bool PivotModel::follows(const Moving& moving) const {
+  if (!moving.leaning || !moving_.still(moving.brick).arrived) return false;
+  const Moving* behind = moving_.find_behind(moving.brick);
+  if (behind != nullptr && !behind->leaning) return false;
+  return std::all_of(moving.ahead.begin(), moving.ahead.end(), [this](const Pair& pair) {
+    const Moving* ahead = moving_.find(pair.ahead());
+    return pair.in_line() && (ahead == nullptr || ahead->leaning);
+  });
 }
 
 void PivotModel::rest_bricks() {
   for (const std::int32_t slot : moving_.order()) {
     Moving& moving = moving_[slot];
+    if (moving.fall.time != end_) continue;
     find_unsupported(moving);
-    if (!at_rest(moving)) continue;
+    if (!at_rest(moving)) {
+      moving.follows = follows(moving);
+      continue;
+    }
     moving.fall.omega = 0.0;
     moving.acceleration = 0.0;
     moving.phase = moving.fall.theta == 0.0 ? Phase::standing : Phase::resting;
     retired_.push_back({moving.brick, moving.phase, state(moving)});
-    still_potential_ += potential(moving.brick, moving.fall.theta);
+    still_potential_ += potential(*moving.body, moving.fall.turned);
     MovingSet::Still& still = moving_.still(moving.brick);
     if (!still.rested) note(EventKind::rested, end_, moving.brick);
     still.rested = true;
@@ -214,7 +272,7 @@ void PivotModel::find_unsupported(const Moving& moving) {
     const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
     const double tilt = moving_.tilt(behind);
     const double slack = rest_angle(moving_.body_of(behind));
-    const Bound bound = moving.behind->bound(tilt, tilt + 2.0 * slack, moving.fall.theta, moving.fall.omega);
+    const Bound bound = moving.behind->bound(tilt, tilt + 2.0 * slack, {moving.fall.theta, moving.fall.omega, moving.fall.turned});
     if (tilt < kRightAngle && bound.theta > tilt + slack) unsupported_.push_back(behind);
   }
   if (moving.fall.omega >= 0.0) return;
@@ -227,14 +285,15 @@ void PivotModel::find_unsupported(const Moving& moving) {
 
 Moving& PivotModel::wake_or_find(BrickId brick, double time) {
   if (Moving* moving = moving_.find(brick)) return *moving;
-  still_potential_ -= potential(brick, moving_.tilt(brick));
+  still_potential_ -= potential(moving_.body_of(brick), sin_cos(moving_.tilt(brick)));
   return moving_.wake(brick, time);
 }
 
 void PivotModel::kink(Moving& moving, double time, const HingedState& before, const HingedState& after) {
-  moving.kink_time = time;
-  moving.kink_before = before;
-  moving.kink_after = after;
+  // Those that follow this brick were last looked at within this time.
+  const double forgotten = end_ - static_cast<double>(kFollowStride + 1) * config_.time_step;
+  std::erase_if(moving.kinks, [forgotten](const Kink& old) { return old.time < forgotten; });
+  moving.kinks.push_back({moving.brick, time, before, after});
   const double sign = moving.side;
   kinks_.push_back({moving.brick,
                     time,
@@ -251,9 +310,7 @@ HingedState PivotModel::state(const Moving& moving) const {
   return {sign * moving.fall.theta, sign * moving.fall.omega, sign * moving.acceleration};
 }
 
-double PivotModel::potential(BrickId brick, double tilt) const {
-  const Body& body = moving_.body_of(brick);
-  const SinCos turned = sin_cos(tilt);
+double PivotModel::potential(const Body& body, const SinCos& turned) const {
   const double rise = 0.5 * (body.size.up * (turned.cos - 1.0) + body.size.along * turned.sin);
   return body.mass * layout_.gravity * rise;
 }
@@ -266,9 +323,9 @@ void PivotModel::read(Frame& out) const {
   out.energy = {.kinetic = 0.0, .potential = still_potential_, .push_work = push_work_};
   for (const std::int32_t slot : moving_.order()) {
     const Moving& moving = moving_[slot];
-    out.hinged.push_back({moving.brick, moving.phase, state(moving)});
+    if (moving.fall.time == end_) out.hinged.push_back({moving.brick, moving.phase, state(moving)});
     out.energy.kinetic += 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
-    out.energy.potential += potential(moving.brick, moving.fall.theta);
+    out.energy.potential += potential(*moving.body, moving.fall.turned);
   }
   out.hinged.insert(out.hinged.end(), retired_.begin(), retired_.end());
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/hash.h"
@@ -54,19 +55,23 @@ class PivotModel final : public Model {
   // One brick.
   Moving& wake_or_find(BrickId brick, double time);
   void turn(Moving& moving);
-  void stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to, bool& held_up) const;
-  void lean(Moving& moving, const Fall& from, Fall& to);
+  bool stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const;
+  std::pair<Bound, const Pair*> tightest_bound(const Moving& moving, double to) const;
+  bool stay_leaning(Moving& moving);
+  void lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone);
   void catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead);
-  void follow_kink(Moving& moving, const Pair& pair);
+  void slip_over_edge(Moving& moving, const Bound& bound);
+  void follow_kinks(Moving& moving, const Pair& pair);
   void land(Moving& moving, const Fall& from, Fall& to);
   void note_arrival(const Moving& moving, const Fall& from, const Fall& to);
+  bool follows(const Moving& moving) const;
   bool at_rest(Moving& moving);
   void find_unsupported(const Moving& moving);
 
   void kink(Moving& moving, double time, const HingedState& before, const HingedState& after);
   void note(EventKind kind, double time, BrickId brick, BrickId by = kNoBrick);
   HingedState state(const Moving& moving) const;
-  double potential(BrickId brick, double tilt) const;
+  double potential(const Body& body, const SinCos& turned) const;
 
   const Layout& layout_;
   PivotConfig config_;
