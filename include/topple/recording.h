@@ -115,7 +115,8 @@ class Recorder {
   Recorder(Recording& recording, const RecorderConfig& config);
   ~Recorder();
   void take(const Model& model);  ///< After every step.
-  void finish(RunEnd end);        ///< Closes all tracks.
+  void close_tracks();            ///< Ends every track; finish() does it too.
+  void finish(RunEnd end);        ///< Says how the run ended.
 
  private:
   struct Open;

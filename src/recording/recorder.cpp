@@ -181,10 +181,14 @@ void Recorder::take(const Model& model) {
   open.store.time = open.frame.time;
 }
 
-void Recorder::finish(RunEnd end) {
+void Recorder::close_tracks() {
   for (HingedFit& fit : open_->fits) {
     if (fit.is_open()) open_->close(fit, fit.paused());
   }
+}
+
+void Recorder::finish(RunEnd end) {
+  close_tracks();
   recording_.store_->time = std::max(recording_.store_->time, end.time);
   recording_.store_->end = std::move(end);
 }

@@ -87,10 +87,10 @@ TEST_CASE("the_last_falls_flat_and_the_others_lean_as_geometry_says") {
   CHECK(recording->end().reason == EndReason::at_rest);
   const double pitch = 0.02679;
   const auto angle = [&](BrickId brick) { return recording->at(brick, 1e6).hinge.angle; };
-  // Retired within 1e-4 T / H = 1.6e-5 rad of where the one ahead lets it be, and a knot may be 0.2 % T off: 3e-4 rad.
+  // It rests within 5e-4 T / H = 8e-5 rad of where the one ahead lets it be, and a knot may be 0.2 % T off: 3.1e-4 rad.
   CHECK(angle(59) == doctest::Approx(90.0 * kDegree).epsilon(1e-6));
-  CHECK(std::fabs(angle(58) - std::atan(pitch / 0.00679)) < 3.2e-4);
-  CHECK(std::fabs(angle(20) - std::acos(0.00679 / pitch)) < 3.2e-4);
+  CHECK(std::fabs(angle(58) - std::atan(pitch / 0.00679)) < 4e-4);
+  CHECK(std::fabs(angle(20) - std::acos(0.00679 / pitch)) < 4e-4);
 }
 
 TEST_CASE("momentum_hits_settle_when_plastic_and_speed_up_when_elastic") {

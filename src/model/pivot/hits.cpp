@@ -63,7 +63,9 @@ void PivotModel::push(BrickId brick, std::size_t index, double time) {
 
 void PivotModel::hand_on_hits() {
   hits_.clear();
-  for (const std::int32_t slot : moving_.order()) find_hit(moving_[slot]);
+  for (const std::int32_t slot : moving_.order()) {
+    if (moving_[slot].may_hit) find_hit(moving_[slot]);
+  }
   // In the order of their times; a struck brick may itself strike before the step is over.
   while (!hits_.empty()) {
     const auto first = std::min_element(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) {
@@ -75,11 +77,14 @@ void PivotModel::hand_on_hits() {
   }
 }
 
-void PivotModel::find_hit(const Moving& hitter) {
+void PivotModel::find_hit(Moving& hitter) {
   Hit hit{.time = std::numeric_limits<double>::infinity(), .hitter = hitter.brick};
+  hitter.may_hit = false;
   for (const Pair& pair : hitter.ahead) {
     const MovingSet::Still& ahead = moving_.still(pair.ahead());
-    if (ahead.struck || ahead.tilt > 0.0F || moving_.find(pair.ahead()) != nullptr) continue;
+    if (ahead.struck || ahead.tilt > 0.0F) continue;
+    hitter.may_hit = true;
+    if (moving_.find(pair.ahead()) != nullptr) continue;
     const double time = time_of_passing(hitter.turning, hitter.fall, end_, pair.contact_angle(), config_.integrator);
     if (time < hit.time) hit = {.time = time, .hitter = hitter.brick, .struck = pair.ahead()};
   }
@@ -151,7 +156,7 @@ void PivotModel::strike(const Hit& hit, const Pair& pair, double omega, double f
     moving.acceleration = moving.turning.acceleration(moving.fall.turned, hit.time);
     kink(moving, hit.time, {}, {0.0, moving.fall.omega, moving.acceleration});
   }
-  const Moving& moving = *moving_.find(hit.struck);
+  Moving& moving = *moving_.find(hit.struck);
   const double thickness = moving.body->size.along;
   event.point = brick.foot + static_cast<double>(moving.side) * thickness * rear + Vec3{0.0, 0.0, arm};
   events_.push_back(event);

@@ -60,13 +60,15 @@ Pair::Pair(const Layout& layout, BrickId behind, int behind_side, BrickId ahead,
   const bool same_size = size.up == other.up && size.along == other.along;
   // Beyond this pitch a fallen brick's edge leaves its neighbour's face, and the closed forms no longer hold.
   const bool near = pitch_ * pitch_ + thickness_ * thickness_ <= height_ * height_;
-  in_line_ = same_size && near && turned.cos > 0.0 && std::fabs(turned.sin) < kInLineAngle;
+  aligned_ = same_size && turned.cos > 0.0 && std::fabs(turned.sin) < kInLineAngle;
+  in_line_ = aligned_ && near;
   find_contact(other.up);
 }
 
 void Pair::find_contact(double ahead_height) {
-  if (in_line_) {
-    contact_angle_ = arc_sine((pitch_ - thickness_) / height_);
+  if (aligned_) {
+    const double gap = pitch_ - thickness_;
+    contact_angle_ = gap >= 0.0 && gap < height_ ? arc_sine(gap / height_) : kNever;
   } else if (distance(0.0, 0.0) < 0.0) {
     contact_angle_ = kNever;
     return;

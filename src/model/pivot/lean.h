@@ -55,7 +55,8 @@ class Pair {
   BrickId ahead_;
   int behind_side_;
   int ahead_side_;
-  bool in_line_ = false;      ///< Same size, same direction: the closed forms hold.
+  bool aligned_ = false;      ///< Same size, same direction: the contact angle has a closed form.
+  bool in_line_ = false;      ///< Near enough besides that the bounds have one too.
   double pitch_ = 0.0;        ///< Toe to toe along the heading [m].
   double height_ = 0.0;       ///< [m]
   double thickness_ = 0.0;    ///< [m]

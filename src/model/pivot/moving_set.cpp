@@ -30,21 +30,6 @@ const Body& MovingSet::body_of(BrickId brick) const {
   return bodies_[3 * std::size_t{b.kind} + static_cast<std::size_t>(b.stance)];
 }
 
-Moving* MovingSet::find(BrickId brick) {
-  const std::int32_t slot = slot_[at(brick)];
-  return slot < 0 ? nullptr : &(*this)[slot];
-}
-
-const Moving* MovingSet::find(BrickId brick) const {
-  const std::int32_t slot = slot_[at(brick)];
-  return slot < 0 ? nullptr : &(*this)[slot];
-}
-
-const Moving* MovingSet::find_behind(BrickId brick) const {
-  const BrickId behind = lines_.behind[at(brick)];
-  return behind == kNoBrick ? nullptr : find(behind);
-}
-
 double MovingSet::tilt(BrickId brick) const {
   const std::int32_t slot = slot_[at(brick)];
   return slot < 0 ? double{still(brick).tilt} : (*this)[slot].fall.theta;

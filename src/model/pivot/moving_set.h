@@ -30,6 +30,7 @@ struct Moving {
   bool leaning = false;  ///< Held by a brick ahead.
   bool on_rear_edge = false;  ///< How it leans, see Bound.
   bool follows = false;  ///< Leans, and so do its neighbours: nothing needs it at every step.
+  bool may_hit = true;   ///< A brick ahead still stands and was not struck.
   bool held_up = false;  ///< Fell back onto the brick behind it.
   const Body* body = nullptr;
   Turning turning;            ///< With the force that acts on this brick.
@@ -51,9 +52,20 @@ class MovingSet {
   Moving& operator[](std::int32_t slot) { return pool_[static_cast<std::size_t>(slot)]; }
   const Moving& operator[](std::int32_t slot) const { return pool_[static_cast<std::size_t>(slot)]; }
 
-  Moving* find(BrickId brick);        ///< Null if it does not move.
-  const Moving* find(BrickId brick) const;
-  const Moving* find_behind(BrickId brick) const;  ///< The brick behind, if that one moves.
+  /// Null if it does not move.
+  Moving* find(BrickId brick) {
+    const std::int32_t slot = slot_[static_cast<std::size_t>(brick)];
+    return slot < 0 ? nullptr : &pool_[static_cast<std::size_t>(slot)];
+  }
+  const Moving* find(BrickId brick) const {
+    const std::int32_t slot = slot_[static_cast<std::size_t>(brick)];
+    return slot < 0 ? nullptr : &pool_[static_cast<std::size_t>(slot)];
+  }
+  /// The brick behind, if that one moves.
+  const Moving* find_behind(BrickId brick) const {
+    const BrickId behind = lines_.behind[static_cast<std::size_t>(brick)];
+    return behind == kNoBrick ? nullptr : find(behind);
+  }
   double tilt(BrickId brick) const;      ///< Of any brick [rad].
   Ahead as_ahead(BrickId brick) const;   ///< Any brick, for the one behind it.
   const Lines& lines() const { return lines_; }

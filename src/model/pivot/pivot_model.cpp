@@ -15,8 +15,8 @@ constexpr double kRightAngle = 0.5 * kPi;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // A leaning brick rests when, at its rate, it would move its upper edge by less than this fraction of its thickness in the time
-// sqrt(H / g); it wakes when the brick ahead would let it move further than that. Ten times finer than what a recording keeps.
-constexpr double kRestTolerance = 1e-4;
+// sqrt(H / g); it wakes when the brick ahead would let it move further than that. Four times finer than what a recording keeps.
+constexpr double kRestTolerance = 5e-4;
 
 // A brick that leans on one that leans has no motion of its own: its tilt follows from the one ahead and moves nothing, so it is looked
 // at only at every eighth step (and at its kinks), some forty times finer than the fall of a brick.
@@ -59,8 +59,11 @@ Status PivotModel::step() {
 
 void PivotModel::turn_bricks() {
   const bool look_at_all = step_count_ % kFollowStride == 0;
+  turned_.clear();
   for (const std::int32_t slot : moving_.order()) {
-    if (look_at_all || !moving_[slot].follows) turn(moving_[slot]);
+    if (!look_at_all && moving_[slot].follows) continue;
+    turn(moving_[slot]);
+    turned_.push_back(slot);
   }
 }
 
@@ -203,9 +206,8 @@ void PivotModel::note_arrival(const Moving& moving, const Fall& from, const Fall
 
 Status PivotModel::check_and_hash() {
   Status status;
-  for (const std::int32_t slot : moving_.order()) {
+  for (const std::int32_t slot : turned_) {
     const Moving& moving = moving_[slot];
-    if (moving.fall.time != end_) continue;
     hash_.add(static_cast<std::uint64_t>(moving.brick));
     hash_.add(moving.fall.theta);
     hash_.add(moving.fall.omega);
@@ -240,9 +242,8 @@ bool PivotModel::follows(const Moving& moving) const {
 }
 
 void PivotModel::rest_bricks() {
-  for (const std::int32_t slot : moving_.order()) {
+  for (const std::int32_t slot : turned_) {
     Moving& moving = moving_[slot];
-    if (moving.fall.time != end_) continue;
     find_unsupported(moving);
     if (!at_rest(moving)) {
       moving.follows = follows(moving);

@@ -47,7 +47,7 @@ class PivotModel final : public Model {
 
   // Pushes and hits.
   void push(BrickId brick, std::size_t index, double time);
-  void find_hit(const Moving& hitter);
+  void find_hit(Moving& hitter);
   void hand_on(const Hit& hit);
   double report_force(const Moving& hitter, double time) const;
   void strike(const Hit& hit, const Pair& pair, double omega, double force);
@@ -87,6 +87,7 @@ class PivotModel final : public Model {
   double still_potential_ = 0.0;  ///< Of the bricks that do not move [J].
 
   std::vector<Hit> hits_;
+  std::vector<std::int32_t> turned_;   ///< Slots of the bricks that were looked at in this step.
   std::vector<Event> events_;
   std::vector<Kink> kinks_;
   std::vector<HingedMotion> retired_;  ///< Bricks that came to rest in this step.
