@@ -134,7 +134,7 @@ void PivotModel::lean(Moving& moving, const Fall& from, const Bound& bound, doub
   moving.leaning = true;
   moving.on_rear_edge = bound.on_rear_edge;
   moving.fall = fall_at(end_, bound.theta, std::fmin(bound.rate, omega_alone));
-  const bool kinked = !moving.kinks.empty() && moving.kinks.back().time > from.time;
+  const bool kinked = !moving.kinks.empty() && moving.kinks.back().time >= from.time;
   const double since = end_ - (kinked ? moving.kinks.back().time : from.time);
   const double earlier = kinked ? moving.kinks.back().after.rate : from.omega;
   if (since > 1e-3 * (end_ - from.time)) moving.acceleration = (moving.fall.omega - earlier) / since;
@@ -160,7 +160,7 @@ void PivotModel::follow_kinks(Moving& moving, const Pair& pair) {
   const Moving* ahead = moving_.find(pair.ahead());
   if (ahead == nullptr || !pair.in_line()) return;
   for (const Kink& k : ahead->kinks) {
-    if (k.time <= moving.fall.time || k.time >= end_) continue;
+    if (k.time < moving.fall.time || k.time >= end_) continue;
     const SinCos turned = sin_cos(k.after.angle);
     const Bound before = pair.bound(0.0, kRightAngle, {k.before.angle, k.before.rate, turned});
     const Bound after = pair.bound(0.0, kRightAngle, {k.after.angle, k.after.rate, turned});
