@@ -101,6 +101,14 @@ describe('at every size', () => {
           { timeout: 20000 },
         )
         .toEqual({ wide: false, view: true, canvas: true, cut: false });
+      const opener = page.getByRole('button', { name: width < 720 ? 'Details' : 'Panel' });
+      if (width >= 960) continue;
+      await opener.click();
+      const open = await page.evaluate(() => ['.view', '.panel, .scroll'].map((part) => document.querySelector(part)!.getBoundingClientRect().toJSON()));
+      expect(open[0].height, 'the view stays where it is when the panel opens').toBeGreaterThan(0.25 * height);
+      expect(open[0].width).toBeGreaterThan(0.9 * width);
+      expect(open[1].right).toBeLessThanOrEqual(width);
+      await opener.click();
     }
     await page.close();
   });
