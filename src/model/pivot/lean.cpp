@@ -119,6 +119,13 @@ Bound Pair::bound(double from, double to, const Ahead& ahead) const {
   return {.theta = theta, .rate = ahead.omega * bound_slope(theta, ahead.theta)};
 }
 
+bool Pair::clear(const SinCos& behind, const Ahead& ahead) const {
+  if (!in_line_) return false;
+  const SinCos& a = ahead.turned;
+  const double room = pitch_ * a.cos - thickness_;
+  return room >= 0.0 && height_ * (behind.sin * a.cos - behind.cos * a.sin) < room;
+}
+
 double Pair::bound_slope(double behind, double ahead) const {
   // The distance stays zero: d theta / d ahead = -(dD / d ahead) / (dD / d theta).
   constexpr double kSmall = 1e-6;

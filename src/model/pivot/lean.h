@@ -41,6 +41,9 @@ class Pair {
   /// `ahead` says. At least `from`; more than `to` if nothing is in the way.
   Bound bound(double from, double to, const Ahead& ahead) const;
 
+  /// Whether the brick behind, at a tilt with sine and cosine `behind`, certainly stays clear of the one ahead: a cheap first question.
+  bool clear(const SinCos& behind, const Ahead& ahead) const;
+
   /// Where the one ahead stops when it falls back from `from` to `to` (<= from) onto the one behind at tilt `behind` [rad], if it does.
   std::optional<double> fall_back_stop(double behind, double from, double to) const;
 

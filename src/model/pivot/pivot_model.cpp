@@ -80,7 +80,7 @@ void PivotModel::turn(Moving& moving) {
   if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) to = {.time = end_};  // Back on its foot.
   moving.held_up = to.omega < 0.0 && stop_on_brick_behind(moving, from, to);
   moving.acceleration = moving.turning.acceleration(to.turned, end_);
-  if (const auto [bound, pair] = tightest_bound(moving, to.theta); pair != nullptr && to.theta >= bound.theta) {
+  if (const auto [bound, pair] = tightest_bound(moving, to); pair != nullptr && to.theta >= bound.theta) {
     catch_up(moving, from, to, bound, pair->ahead());
     lean(moving, from, bound, to.omega);
   } else {
@@ -100,13 +100,14 @@ bool PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fa
   return stop.has_value();
 }
 
-std::pair<Bound, const Pair*> PivotModel::tightest_bound(const Moving& moving, double to) const {
+std::pair<Bound, const Pair*> PivotModel::tightest_bound(const Moving& moving, const Fall& to) const {
   std::pair<Bound, const Pair*> tightest{{}, nullptr};
   for (const Pair& pair : moving.ahead) {
     const Ahead ahead = moving_.as_ahead(pair.ahead());
     // What stands and was not struck yet is not leant on: the hit was looked for already.
     if (ahead.theta == 0.0 && !moving_.still(pair.ahead()).struck) continue;
-    const Bound bound = pair.bound(moving.fall.theta, to, ahead);
+    if (pair.clear(to.turned, ahead)) continue;
+    const Bound bound = pair.bound(moving.fall.theta, to.theta, ahead);
     if (tightest.second == nullptr || bound.theta < tightest.first.theta) tightest = {bound, &pair};
   }
   return tightest;
@@ -117,15 +118,15 @@ bool PivotModel::stay_leaning(Moving& moving) {
   const double dt = end_ - from.time;
   const double gravity = moving.turning.acceleration(from.turned, from.time);
   // Alone it would fall so far; it parts from the brick ahead when that one leaves it more room.
-  const double alone = from.theta + dt * (from.omega + 0.5 * dt * gravity);
+  const Fall alone = fall_at(end_, from.theta + dt * (from.omega + 0.5 * dt * gravity), from.omega + dt * gravity);
   const auto [bound, pair] = tightest_bound(moving, alone);
-  if (pair == nullptr || bound.theta > alone) return false;
+  if (pair == nullptr || bound.theta > alone.theta) return false;
   if (bound.on_rear_edge != moving.on_rear_edge) {
     slip_over_edge(moving, bound);
   } else {
     follow_kinks(moving, *pair);
   }
-  lean(moving, from, bound, from.omega + dt * gravity);
+  lean(moving, from, bound, alone.omega);
   note_arrival(moving, from, moving.fall);
   return true;
 }

@@ -56,7 +56,7 @@ class PivotModel final : public Model {
   Moving& wake_or_find(BrickId brick, double time);
   void turn(Moving& moving);
   bool stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const;
-  std::pair<Bound, const Pair*> tightest_bound(const Moving& moving, double to) const;
+  std::pair<Bound, const Pair*> tightest_bound(const Moving& moving, const Fall& to) const;
   bool stay_leaning(Moving& moving);
   void lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone);
   void catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead);
