@@ -130,7 +130,7 @@ void Front::solve_contacts() {
 }
 
 void Front::sweep() {
-  const double tolerance = world_.tolerances.velocity * std::sqrt(world_.gravity * world_.largest);
+  const double tolerance = world_.tolerances.velocity * std::sqrt(world_.gravity * world_.smallest);
   solver_.solve(bodies_, {tolerance, world_.tolerances.sweeps});
 }
 

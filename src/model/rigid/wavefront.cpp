@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace topple::rigid {
 
@@ -29,7 +30,8 @@ World::World(const Layout& source) : layout(source), neighbours(source), gravity
   struck.assign(count, 0);
   front.assign(count, kNoFront);
   place.assign(count, 0);
-  for (const BrickKind& kind : source.kinds) largest = std::max({largest, kind.height, kind.width, kind.thickness});
+  smallest = std::numeric_limits<double>::infinity();
+  for (const BrickKind& kind : source.kinds) smallest = std::min(smallest, std::max({kind.height, kind.width, kind.thickness}));
   pose.reserve(count);
   for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing_pose(source, brick));
 }

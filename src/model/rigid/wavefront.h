@@ -44,7 +44,7 @@ struct World {
   std::vector<std::int32_t> place;    ///< In the list of that front.
   double gravity = 9.81;              ///< [m/s^2]
   double step = 0.0;                  ///< [s]
-  double largest = 0.0;               ///< Longest side of any brick [m].
+  double smallest = 0.0;              ///< Longest side of the smallest brick [m].
   Tolerances tolerances;
   double resting_energy = 0.0;  ///< Potential, of bricks that rest [J].
   double push_work = 0.0;       ///< [J]
