@@ -24,6 +24,8 @@ export const kKeyList: { title: string; keys: { keys: string[]; does: string }[]
       { keys: ['3'], does: 'Brick’s eye' },
       { keys: ['4'], does: 'From the top' },
       { keys: ['0'], does: 'Frame all' },
+      { keys: ['G'], does: 'Ghost: the bricks as they were put down' },
+      { keys: ['M'], does: 'Measure: click two places on the table' },
       { keys: ['H'], does: 'Heat: colour the bricks by when they were struck' },
     ],
   },
@@ -31,7 +33,7 @@ export const kKeyList: { title: string; keys: { keys: string[]; does: string }[]
     title: 'Bricks',
     keys: [
       { keys: ['N'], does: 'Next brick; with Shift the one before' },
-      { keys: ['Esc'], does: 'Choose none' },
+      { keys: ['Esc'], does: 'Stop measuring, choose none' },
       { keys: ['Click'], does: 'Choose a brick' },
     ],
   },
@@ -48,6 +50,10 @@ export const kKeyList: { title: string; keys: { keys: string[]; does: string }[]
 export interface PageActions {
   showKeys: () => void;
   toggleHeat: () => void;
+  toggleGhost: () => void;
+  toggleMeasure: () => void;
+  /** Leaves what is under way: measuring, else the choice of a brick. */
+  leave: () => void;
 }
 
 /** @returns Whether the key was one of ours. */
@@ -79,9 +85,11 @@ function actionFor(key: string, shift: boolean, player: Player, stage: Stage, pa
     '4': () => stage.setWay('top'),
     '0': () => stage.frameAll(),
     n: () => player.chooseNext(shift ? -1 : 1),
+    g: () => page.toggleGhost(),
+    m: () => page.toggleMeasure(),
     h: () => page.toggleHeat(),
     '?': () => page.showKeys(),
-    Escape: () => player.choose(-1),
+    Escape: () => page.leave(),
   };
   return actions[key.length === 1 ? key.toLowerCase() : key];
 }

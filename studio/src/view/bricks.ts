@@ -1,7 +1,7 @@
 /** All bricks as one instanced draw. A frame uploads only the runs of bricks that moved. */
 
 import { DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, Sphere, Vector3 } from 'three';
-import type { Playhead } from '../recording/playhead.ts';
+import { Playhead } from '../recording/playhead.ts';
 import { halfExtents } from '../recording/pose.ts';
 import type { Recording } from '../recording/types.ts';
 import { brickGeometry, roundingFor } from './brick_geometry.ts';
@@ -57,6 +57,23 @@ export class BrickMesh {
     }
     this.color.clearUpdateRanges();
     this.color.needsUpdate = true;
+  }
+
+  /** The bricks as they were put down, faint: where the run began, or how far a brick has come. */
+  makeGhost(): Mesh {
+    const start = new Playhead(this.recording, this.playhead.origin);
+    start.moveTo(-1);
+    const geometry = this.geometry.clone();
+    geometry.instanceCount = this.geometry.instanceCount;
+    for (const name of ['iHalf', 'iColor']) geometry.setAttribute(name, this.geometry.getAttribute(name));
+    geometry.setAttribute('iPosition', new InstancedBufferAttribute(start.position, 3));
+    geometry.setAttribute('iTurn', new InstancedBufferAttribute(start.turn, 4));
+    const material = brickMaterial(this.surroundings);
+    // Pushed back a little, so that a brick which still stands hides its ghost.
+    Object.assign(material, { transparent: true, opacity: 0.22, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });
+    const ghost = new Mesh(geometry, material);
+    ghost.frustumCulled = false;
+    return ghost;
   }
 
   /** Tells the graphics card which bricks the playhead's last move touched. */

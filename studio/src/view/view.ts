@@ -1,6 +1,6 @@
 /** The 3-D view: one scene, drawn live while anything moves and averaged into a still when nothing does. */
 
-import { HalfFloatType, Raycaster, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { HalfFloatType, Raycaster, Scene, type Mesh, type Ray, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
 import type { Playhead } from '../recording/playhead.ts';
 import { extentsOf } from '../recording/pose.ts';
 import type { Recording } from '../recording/types.ts';
@@ -49,6 +49,7 @@ export class View {
   private readonly live: WebGLRenderTarget;
   private readonly bounds: Bounds;
   private readonly brickHeight: number;
+  private ghost: Mesh | null = null;
   private dirty = true;
   private quiet = 0;
   private share = 0;
@@ -96,6 +97,28 @@ export class View {
     this.still.resize(size.x, size.y);
     this.rig.resize(width / height);
     this.changed();
+  }
+
+  /** Shows or hides the bricks as they were put down. */
+  showGhost(shown: boolean): void {
+    if (shown && !this.ghost) this.scene.add((this.ghost = this.bricks.makeGhost()));
+    if (this.ghost) this.ghost.visible = shown;
+    this.changed();
+  }
+
+  /** Where the ray through a pixel meets the table, in the layout's axes [m]; null above the horizon. */
+  tablePoint(x: number, y: number): Vector3 | null {
+    const ray = this.rayAt(x, y);
+    const way = -ray.origin.z / ray.direction.z;
+    return way > 0 && Number.isFinite(way) ? ray.at(way, new Vector3()).add(new Vector3(...this.playhead.origin)) : null;
+  }
+
+  /** A place [m, in the layout's axes] in CSS pixels from the view's upper left corner; null behind the camera. */
+  pixelOf(place: Vector3): { x: number; y: number } | null {
+    this.rig.camera.updateMatrixWorld();
+    const at = place.clone().sub(new Vector3(...this.playhead.origin)).project(this.rig.camera);
+    if (at.z > 1) return null;
+    return { x: (0.5 + 0.5 * at.x) * this.canvas.clientWidth, y: (0.5 - 0.5 * at.y) * this.canvas.clientHeight };
   }
 
   /** Something moved: the next frame is drawn anew. */
@@ -190,10 +213,14 @@ export class View {
 
   /** @param x, y In CSS pixels from the view's upper left corner. @returns A brick or -1. */
   pick(x: number, y: number): number {
+    return pickBrick(this.playhead, this.rayAt(x, y));
+  }
+
+  private rayAt(x: number, y: number): Ray {
     const caster = new Raycaster();
     const { clientWidth, clientHeight } = this.canvas;
     caster.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.rig.camera);
-    return pickBrick(this.playhead, caster.ray);
+    return caster.ray;
   }
 
   /** A brick's outline in the picture, in CSS pixels; null if it is out of sight. */

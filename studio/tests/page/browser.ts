@@ -13,6 +13,9 @@ import { makeRecording } from '../make_recording.ts';
 const kHere = new URL('.', import.meta.url).pathname;
 const kDist = join(kHere, '../../dist');
 export const kOut = join(kHere, '../out');
+export const kRoot = join(kHere, '../../..');
+/** The program of this tree, or another. It may not be there. */
+export const kProgram = process.env.TOPPLE_PROGRAM ?? join(kRoot, 'build/release/topple');
 
 const kTypes: Record<string, string> = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.json': 'application/json',
@@ -56,13 +59,11 @@ export function launch(webGl = true): Promise<Browser> {
  * @param layout TOML, or the path of a scene from the repository's root.
  */
 export async function recordingOf(layout: string, instead: () => Uint8Array): Promise<{ bytes: Uint8Array; real: boolean }> {
-  const root = join(kHere, '../../..');
-  const program = process.env.TOPPLE_PROGRAM ?? join(root, 'build/release/topple');
-  if (!existsSync(program) || !existsSync(join(root, layout))) return { bytes: instead(), real: false };
+  if (!existsSync(kProgram) || !existsSync(join(kRoot, layout))) return { bytes: instead(), real: false };
   const folder = await mkdtemp(join(tmpdir(), 'topple-page-'));
   try {
     const file = join(folder, 'run.topple');
-    await promisify(execFile)(program, ['run', join(root, layout), '--out', file]);
+    await promisify(execFile)(kProgram, ['run', join(kRoot, layout), '--out', file]);
     return { bytes: new Uint8Array(await readFile(file)), real: true };
   } finally {
     await rm(folder, { recursive: true, force: true });

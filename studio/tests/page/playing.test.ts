@@ -140,6 +140,27 @@ describe('the page', () => {
     expect(await page.getByRole('dialog').count()).toBe(0);
   });
 
+  test('measures what lies between two bricks on the table', async () => {
+    await page.evaluate(() => {
+      window.topple.seek(0);
+      window.topple.lookFrom([0.13, -0.5, 0.4], [0.13, 0, 0]);
+    });
+    await page.keyboard.press('g');
+    await drawn();
+    await page.keyboard.press('m');
+    const box = (await page.locator('.view canvas').boundingBox())!;
+    // From the middle of the picture, which is the place looked at, to a place on its right: the same height in the picture.
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.click(x, y);
+    await page.mouse.click(x + 100, y);
+    // The camera is 0.6403 m away with a field of 30 degrees over the height: 100 pixels are 100 / height x 2 tan(15 deg) x 0.6403 m.
+    const expected = (100 / box.height) * 2 * Math.tan(Math.PI / 12) * Math.hypot(0.5, 0.4) * 1000;
+    await expect.poll(async () => parseFloat(await page.locator('.told[role=status]').innerText())).toBeCloseTo(expected, 0);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('g');
+    expect(await page.locator('.told[role=status]').count()).toBe(0);
+  });
+
   test('saves the view as a PNG picture', async () => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Picture' }).click()]);
     expect(download.suggestedFilename()).toMatch(/s\.png$/);
