@@ -46,4 +46,14 @@ struct PlotConfig {
 /// Draws with gnuplot; the format follows the path's extension: .svg, .png or .pdf.
 Result<void> plot(const Recording& recording, const PlotConfig& config, const std::filesystem::path& path);
 
+/// How the error of an integrator shrinks with its time step.
+struct ErrorCurve {
+  std::string name;                ///< For the legend; of our own words.
+  std::vector<double> time_steps;  ///< Falling [s].
+  std::vector<double> errors;      ///< Of the angle [rad].
+  double slope = 0.0;              ///< Of log(error) against log(time step).
+};
+/// Draws the curves on logarithmic axes, with their slopes in the legend.
+Result<void> plot_convergence(std::span<const ErrorCurve> curves, const std::filesystem::path& path);
+
 }  // namespace topple

@@ -1,0 +1,128 @@
+/// `topple run`: from a layout to a summary and, if wanted, a recording on disk that grows with the run.
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "interrupt.h"
+#include "source.h"
+#include "summary.h"
+#include "text.h"
+#include "topple/export.h"
+#include "verb.h"
+
+namespace topple::app {
+namespace {
+
+/// The recording's file, written while the run goes on: what is on disk stays there if the program is killed.
+class GrowingFile {
+ public:
+  explicit GrowingFile(std::filesystem::path path) : path_(std::move(path)) {}
+
+  /// Writes what was finished, a few times a second; false once writing failed.
+  bool grow(const Recording& recording) {
+    const auto now = std::chrono::steady_clock::now();
+    if (path_.empty() || now < next_) {
+      return true;
+    }
+    next_ = now + std::chrono::milliseconds(250);
+    return open(recording) && keep(file_->append());
+  }
+
+  bool finish(const Recording& recording) {
+    return path_.empty() || (!error_ && open(recording) && keep(file_->append()) && keep(file_->finish()));
+  }
+
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  bool open(const Recording& recording) {
+    if (!file_) {
+      Result<RecordingFile> file = RecordingFile::create(recording, path_);
+      if (!file) {
+        error_ = file.error();
+        return false;
+      }
+      file_.emplace(std::move(*file));
+    }
+    return true;
+  }
+
+  bool keep(const Result<void>& result) {
+    if (!result) {
+      error_ = result.error();
+    }
+    return result.has_value();
+  }
+
+  std::filesystem::path path_;
+  std::chrono::steady_clock::time_point next_;
+  std::optional<RecordingFile> file_;
+  std::optional<Error> error_;
+};
+
+class RunVerb final : public Verb {
+ public:
+  const char* name() const override { return "run"; }
+  const char* purpose() const override { return "Run a layout and print what happened"; }
+  const char* example() const override { return "topple run scenes/report_row.toml --set time_step_s=0.00025 --out row.topple"; }
+
+  void declare(CLI::App& app) override {
+    app::declare(app, options_, "LAYOUT");
+    app.add_option("--out", out_, "Write the recording to this file while the run goes on")->type_name("FILE.topple");
+    app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
+  }
+
+  int run() override {
+    if (is_recording(options_.file)) {
+      return complain(options_.file.string() + " is a recording; run takes a layout. `topple replay` runs a recording's recipe again.",
+                      kBadInput);
+    }
+    if (!out_.empty() && out_.extension() != ".topple") {
+      return complain("--out " + out_.string() + ": a recording's name ends in .topple; `topple export` makes other files of it.",
+                      kBadInput);
+    }
+    GrowingFile file(out_);
+    const std::expected<Recording, int> recording = run_layout(options_, [&file](const Recording& so_far) { return file.grow(so_far); });
+    if (!recording) {
+      return recording.error();
+    }
+    if (!file.finish(*recording)) {
+      return complain(*file.error(), kFailed);
+    }
+    print(*recording);
+    if (interrupted()) {
+      return kInterrupted;
+    }
+    return recording->end().reason == EndReason::not_finite ? kFailed : kDone;
+  }
+
+ private:
+  void print(const Recording& recording) const {
+    if (json_) {
+      nlohmann::ordered_json json = summary_json(recording);
+      json["recording"] = out_.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(out_.string());
+      std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+      return;
+    }
+    std::fputs(summary_text(recording).c_str(), stdout);
+    const Cost cost = cost_so_far();
+    std::printf("  %-12s %.2f s, %.2f s of processor time, %s of memory\n", "cost", cost.wall, cost.cpu,
+                byte_size(cost.peak_memory).c_str());
+    if (!out_.empty()) {
+      std::error_code unknown;
+      const std::uintmax_t size = std::filesystem::file_size(out_, unknown);
+      std::printf("  %-12s %s, %s\n", "recording", out_.string().c_str(), byte_size(unknown ? 0 : size).c_str());
+    }
+  }
+
+  RunOptions options_;
+  std::filesystem::path out_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> run_verb() { return std::make_unique<RunVerb>(); }
+
+}  // namespace topple::app

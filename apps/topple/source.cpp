@@ -1,0 +1,125 @@
+#include "source.h"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include "interrupt.h"
+#include "progress.h"
+#include "text.h"
+#include "topple/export.h"
+#include "verb.h"
+
+namespace topple::app {
+namespace {
+
+constexpr std::string_view kMagic = "TOPPLE01";
+constexpr int kMostThreads = 1024;
+
+/// "key=value" with a key, else a sentence for the option library.
+std::string check_setting(const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  return equals == std::string::npos || equals == 0 ? "'" + setting + "' is not of the form key=value" : std::string();
+}
+
+std::string check_duration(const std::string& text) {
+  double value = 0.0;
+  const bool number = CLI::detail::lexical_cast(text, value);
+  return number && std::isfinite(value) && value > 0.0 ? std::string() : "'" + text + "' is not a time above 0 s";
+}
+
+/// Options that steer a run say nothing about one that was run already.
+std::string useless_option(const RunOptions& options) {
+  if (!options.model.empty()) {
+    return "--model";
+  }
+  if (!options.settings.empty()) {
+    return "--set";
+  }
+  return std::isfinite(options.until) ? "--until" : "";
+}
+
+}  // namespace
+
+void declare(CLI::App& app, RunOptions& options, const std::string& what) {
+  app.add_option(what, options.file,
+                 what == "LAYOUT" ? "A layout file (.toml)" : "A recording (.topple), or a layout file (.toml), which is run first")
+      ->required();
+  app.add_option("--model", options.model, "The model, over what the layout says (pivot)")->type_name("NAME");
+  app.add_option("--set", options.settings,
+                 "A setting over what the layout says, as often as needed: a dotted key of the file, or one of [model]")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false)
+      ->check(CLI::Validator(check_setting, ""));
+  app.add_option("--until", options.until, "Stop at this simulated time [s]")->type_name("S")->check(CLI::Validator(check_duration, ""));
+  app.add_option("--threads", options.threads, "Threads; the result does not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMostThreads));
+}
+
+std::vector<std::string> overrides_of(const RunOptions& options) {
+  std::vector<std::string> overrides;
+  if (!options.model.empty()) {
+    overrides.push_back("model.name=" + options.model);
+  }
+  overrides.insert(overrides.end(), options.settings.begin(), options.settings.end());
+  return overrides;
+}
+
+std::expected<Recording, int> run_layout(const RunOptions& options, const Watch& watch) {
+  Result<Layout> layout = load_layout(options.file, overrides_of(options));
+  if (!layout) {
+    return std::unexpected(complain(layout.error(), kBadInput));
+  }
+  const Result<ModelConfig> model = model_config(*layout);
+  if (!model) {
+    return std::unexpected(complain(model.error(), kBadInput));
+  }
+  Progress bar;
+  RunConfig config;
+  config.until = options.until;
+  config.threads = options.threads;
+  config.watch = [&](const RunProgress& progress, const Recording& recording) {
+    bar.show(progress);
+    return !interrupted() && (!watch || watch(recording));
+  };
+  Result<Recording> recording = simulate(std::move(*layout), *model, config);
+  bar.clear();
+  if (!recording) {
+    return std::unexpected(complain(recording.error(), kBadInput));
+  }
+  return std::move(*recording);
+}
+
+bool is_recording(const std::filesystem::path& file) {
+  if (file.extension() == ".topple") {
+    return true;
+  }
+  std::array<char, kMagic.size()> start{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), start.size());
+  return stream && std::string_view(start.data(), start.size()) == kMagic;
+}
+
+std::expected<Recording, int> open_recording(const RunOptions& options) {
+  if (!is_recording(options.file)) {
+    std::expected<Recording, int> recording = run_layout(options);
+    if (recording && interrupted()) {
+      return std::unexpected(complain("Interrupted: the run is not whole, nothing was made of it.", kInterrupted));
+    }
+    return recording;
+  }
+  const std::string useless = useless_option(options);
+  if (!useless.empty()) {
+    return std::unexpected(
+        complain(useless + " is for running a layout; " + options.file.string() + " is a recording, which was run already.", kBadInput));
+  }
+  Result<Recording> recording = load_recording(options.file);
+  if (!recording) {
+    return std::unexpected(complain(recording.error(), kBadInput));
+  }
+  return std::move(*recording);
+}
+
+}  // namespace topple::app
