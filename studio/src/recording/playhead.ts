@@ -76,8 +76,8 @@ export class Playhead {
     this.active[this.activeCount++] = track;
   }
 
+  /** What leaves was under way, so that it has been touched already. */
   private leave(track: number): void {
-    this.touch(track);
     const slot = this.slot[track];
     if (slot < 0) return;
     const last = this.active[--this.activeCount];

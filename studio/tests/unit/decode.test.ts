@@ -69,6 +69,14 @@ describe('decoding', () => {
     }
   });
 
+  test('a bit flipped in any payload is refused by its checksum, with the piece and the byte', () => {
+    for (const { at, type, length } of piecesOf(whole)) {
+      const bytes = whole.slice();
+      bytes[at + 16 + (length >> 1)] ^= 4;
+      expect(() => decodeRecording(bytes)).toThrow(`Damaged in the piece ${type} at byte ${at}`);
+    }
+  });
+
   test('one flipped bit anywhere is noticed, or harmless: never another error, never other bricks', () => {
     for (let at = 0; at < whole.length; at += 11) {
       const bytes = whole.slice();

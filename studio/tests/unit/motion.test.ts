@@ -125,6 +125,9 @@ describe('the story of a brick', () => {
     expect(curves.time.every((t, i) => i === 0 || t >= curves.time[i - 1])).toBe(true);
     const gap = curves.rate.indexOf(null);
     expect(curves.rate[gap - 1]).toBe(0);
+    // At the hit the rate is nothing or what the hit gave, never in between.
+    const atHit = curves.rate.filter((rate, i) => rate && Math.abs(curves.time[i] - 9 * kHitStep) < 1e-9) as number[];
+    for (const rate of atHit) expect(rate).toBeCloseTo(Math.asin(0.0165 / 0.048) / kHitStep, 4);
     expect(curves.angle.every((a) => a !== null)).toBe(true);
   });
 });
