@@ -39,9 +39,8 @@ struct Story {
 
 /// Whether a brick that the wave has reached (10 degrees) is always past its tip angle, so that nobody need look.
 bool all_tip_before_arrival(const Layout& layout) {
-  return std::all_of(layout.bricks.begin(), layout.bricks.end(), [&layout](const Brick& brick) {
-    return tip_angle(extents(layout.kinds[brick.kind], brick.stance)) < kArrivalTilt;
-  });
+  return std::all_of(layout.bricks.begin(), layout.bricks.end(),
+                     [&layout](const Brick& brick) { return tip_angle(extents(layout.kinds[brick.kind], brick.stance)) < kArrivalTilt; });
 }
 
 /// The last brick that was pushed or struck and rests short of its tip angle.

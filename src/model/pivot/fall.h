@@ -10,10 +10,10 @@ namespace topple::pivot {
 /// What turns a brick, divided by its moment of inertia; theta = tilt [rad].
 /// theta'' = push + sine sin(theta) - cosine cos(theta), which is (2.3) of [Arnesson2020] with d(theta) = T/2 cos(theta) - H/2 sin(theta).
 struct Turning {
-  double sine = 0.0;         ///< m g H / (2 I) [1/s^2]
-  double cosine = 0.0;       ///< m g T / (2 I) [1/s^2]
-  double push = 0.0;         ///< F r / I while the force acts [1/s^2]
-  double push_until = 0.0;   ///< [s]
+  double sine = 0.0;        ///< m g H / (2 I) [1/s^2]
+  double cosine = 0.0;      ///< m g T / (2 I) [1/s^2]
+  double push = 0.0;        ///< F r / I while the force acts [1/s^2]
+  double push_until = 0.0;  ///< [s]
 
   /// At a tilt whose sine and cosine are `turned`, at a time [rad/s^2].
   double acceleration(const SinCos& turned, double time) const {

@@ -136,7 +136,9 @@ double Pair::bound_slope(double behind, double ahead) const {
 
 std::optional<double> Pair::fall_back_stop(double behind, double from, double to) const {
   const double touching = kTouching * (in_line_ ? thickness_ / height_ : thickness_);
-  const auto apart = [&](double ahead) { return (in_line_ ? bound_in_line({ahead, 0.0, sin_cos(ahead)}).theta - behind : distance(behind, ahead)) - touching; };
+  const auto apart = [&](double ahead) {
+    return (in_line_ ? bound_in_line({ahead, 0.0, sin_cos(ahead)}).theta - behind : distance(behind, ahead)) - touching;
+  };
   if (apart(to) >= 0.0) return std::nullopt;
   if (apart(from) < 0.0) return from;
   // In terms of how far it has fallen back, the distance falls.

@@ -11,8 +11,8 @@ namespace topple::pivot {
 
 /// The tilt that the brick ahead allows, and how fast that bound moves.
 struct Bound {
-  double theta = 0.0;  ///< [rad]
-  double rate = 0.0;   ///< [rad/s]
+  double theta = 0.0;         ///< [rad]
+  double rate = 0.0;          ///< [rad/s]
   bool on_rear_edge = false;  ///< Its face lies on the lower rear edge ahead, instead of its edge on the rear face.
 };
 
@@ -58,11 +58,11 @@ class Pair {
   BrickId ahead_;
   int behind_side_;
   int ahead_side_;
-  bool aligned_ = false;      ///< Same size, same direction: the contact angle has a closed form.
-  bool in_line_ = false;      ///< Near enough besides that the bounds have one too.
-  double pitch_ = 0.0;        ///< Toe to toe along the heading [m].
-  double height_ = 0.0;       ///< [m]
-  double thickness_ = 0.0;    ///< [m]
+  bool aligned_ = false;    ///< Same size, same direction: the contact angle has a closed form.
+  bool in_line_ = false;    ///< Near enough besides that the bounds have one too.
+  double pitch_ = 0.0;      ///< Toe to toe along the heading [m].
+  double height_ = 0.0;     ///< [m]
+  double thickness_ = 0.0;  ///< [m]
   double contact_angle_ = 0.0;
   double contact_height_ = 0.0;
 };

@@ -27,20 +27,20 @@ struct Moving {
   std::int32_t depth = 0;
   std::int8_t side = 1;  ///< +1 about its toe, -1 about its heel.
   Phase phase = Phase::falling;
-  bool leaning = false;  ///< Held by a brick ahead.
+  bool leaning = false;       ///< Held by a brick ahead.
   bool on_rear_edge = false;  ///< How it leans, see Bound.
-  bool follows = false;  ///< Leans, and so do its neighbours: nothing needs it at every step.
-  bool may_hit = true;   ///< A brick ahead still stands and was not struck.
-  bool held_up = false;  ///< Fell back onto the brick behind it.
+  bool follows = false;       ///< Leans, and so do its neighbours: nothing needs it at every step.
+  bool may_hit = true;        ///< A brick ahead still stands and was not struck.
+  bool held_up = false;       ///< Fell back onto the brick behind it.
   const Body* body = nullptr;
-  Turning turning;            ///< With the force that acts on this brick.
-  Fall fall;                  ///< Now.
-  double acceleration = 0.0;  ///< Now [rad/s^2].
-  double report_torque = 0.0; ///< Of the force that acts on it, with the arm that (2.5) gives it [N m].
-  std::int32_t first_push = 0;            ///< The push that began its line.
-  std::vector<Kink> kinks;                ///< Its latest, for those that follow it.
-  std::vector<Pair> ahead;                ///< One for each brick that it strikes.
-  std::optional<Pair> behind;             ///< With the brick behind while that one rests on it.
+  Turning turning;              ///< With the force that acts on this brick.
+  Fall fall;                    ///< Now.
+  double acceleration = 0.0;    ///< Now [rad/s^2].
+  double report_torque = 0.0;   ///< Of the force that acts on it, with the arm that (2.5) gives it [N m].
+  std::int32_t first_push = 0;  ///< The push that began its line.
+  std::vector<Kink> kinks;      ///< Its latest, for those that follow it.
+  std::vector<Pair> ahead;      ///< One for each brick that it strikes.
+  std::optional<Pair> behind;   ///< With the brick behind while that one rests on it.
 };
 
 class MovingSet {
@@ -66,8 +66,8 @@ class MovingSet {
     const BrickId behind = lines_.behind[static_cast<std::size_t>(brick)];
     return behind == kNoBrick ? nullptr : find(behind);
   }
-  double tilt(BrickId brick) const;      ///< Of any brick [rad].
-  Ahead as_ahead(BrickId brick) const;   ///< Any brick, for the one behind it.
+  double tilt(BrickId brick) const;     ///< Of any brick [rad].
+  Ahead as_ahead(BrickId brick) const;  ///< Any brick, for the one behind it.
   const Lines& lines() const { return lines_; }
 
   Moving& wake(BrickId brick, double time);
@@ -92,9 +92,9 @@ class MovingSet {
 
   const Layout& layout_;
   Lines lines_;
-  std::vector<Body> bodies_;           ///< [kind * 3 + stance]
+  std::vector<Body> bodies_;  ///< [kind * 3 + stance]
   std::vector<Still> still_;
-  std::vector<std::int32_t> slot_;     ///< [brick_count], -1 for a brick that does not move.
+  std::vector<std::int32_t> slot_;  ///< [brick_count], -1 for a brick that does not move.
   std::vector<Moving> pool_;
   std::vector<std::int32_t> free_;
   std::vector<std::int32_t> order_;

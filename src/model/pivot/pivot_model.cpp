@@ -304,7 +304,8 @@ void PivotModel::kink(Moving& moving, double time, const HingedState& before, co
 }
 
 void PivotModel::note(EventKind kind, double time, BrickId brick, BrickId by) {
-  events_.push_back({.time = time, .kind = kind, .brick = brick, .by = by, .force = kNone, .impulse = kNone, .point = {kNone, kNone, kNone}});
+  events_.push_back(
+      {.time = time, .kind = kind, .brick = brick, .by = by, .force = kNone, .impulse = kNone, .point = {kNone, kNone, kNone}});
 }
 
 HingedState PivotModel::state(const Moving& moving) const {

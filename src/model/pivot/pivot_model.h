@@ -87,11 +87,11 @@ class PivotModel final : public Model {
   double still_potential_ = 0.0;  ///< Of the bricks that do not move [J].
 
   std::vector<Hit> hits_;
-  std::vector<std::int32_t> turned_;   ///< Slots of the bricks that were looked at in this step.
+  std::vector<std::int32_t> turned_;  ///< Slots of the bricks that were looked at in this step.
   std::vector<Event> events_;
   std::vector<Kink> kinks_;
   std::vector<HingedMotion> retired_;  ///< Bricks that came to rest in this step.
-  std::vector<BrickId> unsupported_;    ///< Resting bricks whose support moved on: they wake in the next step.
+  std::vector<BrickId> unsupported_;   ///< Resting bricks whose support moved on: they wake in the next step.
 };
 
 }  // namespace topple::pivot
