@@ -17,10 +17,6 @@ constexpr double kForever = std::numeric_limits<double>::infinity();
 // A lean turns over once its edge is this close to the end of its way; a pure number, far above rounding.
 constexpr double kTurnOver = 1e-9;
 
-// The time step where a train is slow, as a fraction of the time in which a brick's tilt from balance grows e times. At a fiftieth the
-// fourth-order step errs by 1e-9 (tests/model/hinge_leg_test.cpp).
-constexpr double kSlowFraction = 0.02;
-
 // Where f(x) = 0 between low and high, f(low) > 0 > f(high) or the other way round, by regula falsi with Illinois' halving.
 template <typename Function>
 double root(double low, double high, double at_low, double at_high, Function f) {
@@ -88,7 +84,10 @@ TrainBrick Chain::make_brick(BrickId id) const {
     const BrickKind& ahead = scene_->kind_of(link.next);
     brick.pitch = link.pitch / kind.height;
     brick.thickness_ahead = ahead.thickness / kind.height;
-    brick.friction = std::sqrt(kind.surface.brick_friction * ahead.surface.brick_friction);
+    const double own = kind.surface.brick_friction;
+    const double other = ahead.surface.brick_friction;
+    brick.friction = own == other ? own : std::sqrt(own * other);
+    brick.hit_angle = arc_sine(brick.pitch - brick.thickness_ahead);
   }
   return brick;
 }
@@ -127,19 +126,25 @@ void Chain::advance(double until, Happenings& out) {
     }
     emit_arrivals(horizon, out);
     state_ = leg_.at_time(horizon);
-    state_.acceleration = train_.place(state_.angle, direction_).acceleration(state_.rate);
+    view_ = train_.place(state_.angle, direction_);
+    state_.acceleration = view_.acceleration(state_.rate);
     add_work(out);
     if (change > until) return;
     leg_.count = 0;
   }
 }
 
+LegGoal Chain::leg_goal() const {
+  return {goal_angle_, direction_, scene_->slow_step, 0.1 * scene_->rest_tolerance, view_};
+}
+
 void Chain::start_leg() {
   choose_goal();
-  const BrickKind& kind = scene_->kind_of(front());
-  const double diagonal = std::sqrt(kind.height * kind.height + kind.thickness * kind.thickness);
-  const double slow_step = kSlowFraction * std::sqrt(2.0 * diagonal / (3.0 * scene_->layout->gravity));
-  leg_ = make_leg(train_, state_, {goal_angle_, direction_, slow_step});
+  leg_ = make_leg(train_, state_, leg_goal());
+  if (leg_.turns_over) {
+    find_turn_over(state_.angle);
+    if (goal_ == Goal::turn_over) leg_ = make_leg(train_, state_, leg_goal());
+  }
   find_arrivals();
 }
 
@@ -165,15 +170,13 @@ void Chain::choose_goal() {
       goal_ = Goal::floor;
       goal_angle_ = 0.5 * kPi;
     } else if (scene_->angle_of(next) == 0.0F) {
-      const TrainBrick brick = make_brick(front());
       goal_ = Goal::hit;
-      goal_angle_ = arc_sine(brick.pitch - brick.thickness_ahead);
+      goal_angle_ = train_.at(0).hit_angle;
     } else {
       goal_ = Goal::lean;
       goal_angle_ = lean_angle(front(), next);
     }
   }
-  find_turn_over(state_.angle);
 }
 
 // Whether a lean turns over before the goal; if so, that is where the leg ends.
@@ -233,19 +236,25 @@ void Chain::emit_arrivals(double until, Happenings& out) {
 
 void Chain::finish_leg(Happenings& out) {
   const bool reached = leg_.reached;
+  const bool touches = leg_.touches || !leg_.swept || direction_ < 0.0 || goal_ == Goal::turn_over;
   const bool stuck = leg_.end().time <= leg_.nodes[0].time;  // Friction jams it: it would not move whichever way it went.
   state_ = leg_.end();
   leg_.count = 0;
-  train_.place(state_.angle, direction_);
+  if (leg_.swept) {
+    train_.place_at_goal(state_.angle);
+    view_ = leg_.goal_view;
+  } else {
+    view_ = train_.place(state_.angle, direction_);
+  }
   add_work(out);
   if (!reached) {
     if (direction_ * state_.rate > 0.0) return;
     state_.rate = 0.0;
     begin_motion();
-    if (!moving_ || stuck) rest_all(false, kNoBrick, out);
-    return;
+    if (!moving_ || stuck) return rest_all(false, kNoBrick, out);
+    return restart(0.0);
   }
-  turn_over(out);
+  if (touches) turn_over(out);
   if (!moving_) return;
   switch (goal_) {
     case Goal::hit:
@@ -269,10 +278,12 @@ void Chain::remember_states() {
 // The front goes on from where it is, at another rate.
 void Chain::restart(double rate) {
   state_.rate = rate;
-  state_.acceleration = train_.place(state_.angle, direction_).acceleration(rate);
+  view_ = train_.place(state_.angle, direction_);
+  state_.acceleration = view_.acceleration(rate);
 }
 
-// Jumps that turn a corner aside, within a step, by more than a tenth of what a resting brick may still move.
+// A jump that is not told makes the motion between two steps, as the Hermite polynomial sees it, wrong by at most about a tenth of
+// jump x step. So those are told that would make it a tenth of what a resting brick may still move, or more.
 void Chain::add_kinks(Happenings& out) {
   const double step = scene_->time_step;
   for (std::size_t i = 0; i < train_.size(); ++i) {
@@ -281,7 +292,7 @@ void Chain::add_kinks(Happenings& out) {
     const HingedState after = state_of(brick);
     const double jump =
         std::fabs(after.rate - before.rate) * step + 0.5 * std::fabs(after.acceleration - before.acceleration) * step * step;
-    if (jump * brick.height > 0.1 * scene_->rest_tolerance * brick.thickness) out.kinks.push_back({brick.id, state_.time, before, after});
+    if (jump * brick.height > scene_->rest_tolerance * brick.thickness) out.kinks.push_back({brick.id, state_.time, before, after});
   }
 }
 
@@ -302,8 +313,11 @@ void Chain::turn_over(Happenings& out) {
   const double rate = train_.front_momentum(rates_, direction_) / inertia;
   restart(direction_ * rate > 0.0 ? rate : 0.0);
   add_kinks(out);
-  if (state_.rate == 0.0) begin_motion();
-  if (!moving_) return rest_all(false, kNoBrick, out);
+  if (state_.rate == 0.0) {
+    begin_motion();
+    if (!moving_) return rest_all(false, kNoBrick, out);
+    restart(0.0);
+  }
   if (direction_ > 0.0) retire(out);
 }
 
@@ -311,17 +325,13 @@ void Chain::turn_over(Happenings& out) {
 void Chain::hit(Happenings& out) {
   const BrickId by = front();
   const BrickId id = scene_->link_of(by).next;
-  const double old_rate = state_.rate;
   remember_states();
-  TrainBrick& last_front = train_.at(0);
-  last_front.on_heel = false;
-  rates_.assign(1, 0.0);
-  for (std::size_t k = 0; k < train_.size(); ++k) rates_.push_back(train_.at(k).ratio * old_rate);
-  train_.add_front(make_brick(id));
-  state_.angle = 0.0;
-  const FrontView view = train_.place(0.0, 1.0);
-  const double momentum = train_.front_momentum(rates_, 1.0);
+  train_.at(0).on_heel = false;
+  const FrontView view = train_.strike(make_brick(id), view_);
+  // What the train had about the struck brick stays: the gain of the new lean x what it had about the one that strikes.
+  const double momentum = (view.inertia - train_.at(0).inertia) * state_.rate;
   const double rate = view.inertia > 0.0 && momentum > 0.0 ? momentum / view.inertia : 0.0;
+  state_.angle = 0.0;
 
   const TrainBrick& behind = train_.at(1);
   const double sine = behind.pitch - behind.thickness_ahead;
@@ -341,12 +351,13 @@ void Chain::hit(Happenings& out) {
     train_.drop_front();
     state_.angle = train_.at(0).angle;
     state_.rate = 0.0;
-    train_.place(state_.angle, 1.0);
+    view_ = train_.place(state_.angle, 1.0);
     return rest_all(true, id, out);
   }
   scene_->angle_of(id) = HingeScene::kInTrain;
   state_.rate = rate;
   state_.acceleration = view.acceleration(rate);
+  view_ = view;
   add_kinks(out);
   retire(out);
 }

@@ -16,6 +16,7 @@ struct HingeScene {
   std::vector<Link> links;
   double rest_tolerance = 0.0;  ///< HingeConfig::rest_tolerance.
   double time_step = 0.0;       ///< Of the model [s].
+  double slow_step = 0.0;       ///< Time step where a train is slow [s].
   /// Where each brick is: its angle where it rests [rad], 0 while it stands, kInTrain while it moves.
   std::vector<float> angles;
 
@@ -80,6 +81,7 @@ class Chain {
 
   void start_leg();
   void choose_goal();
+  LegGoal leg_goal() const;
   double lean_angle(BrickId front, BrickId next) const;
   void find_turn_over(double from);
   void find_arrivals();
@@ -106,6 +108,7 @@ class Chain {
 
   Train train_;
   FrontState state_;
+  FrontView view_;  // The train at state_, where no leg is under way.
   double direction_ = 1.0;
   bool moving_ = false;
   Leg leg_;

@@ -78,9 +78,16 @@ bool solve(std::array<std::array<double, 5>, 4>& rows, std::array<double, 5>& ou
 }
 
 // One step over `span` [rad], which has the sign of the direction. No leg (count 0) if the time is not smooth over it.
-Leg collocate(const Train& train, const FrontState& start, double span, double direction) {
-  std::array<FrontView, 5> views;
-  for (std::size_t i = 0; i < 5; ++i) views[i] = train.view(start.angle + kNodes[i] * span, direction);
+Leg collocate(Train& train, const FrontState& start, double span, const LegGoal& goal) {
+  const double direction = goal.direction;
+  std::array<double, 4> angles;
+  for (std::size_t i = 0; i < 4; ++i) angles[i] = start.angle + kNodes[i + 1] * span;
+  const Sweep sweep = train.sweep(angles, direction, goal.slack);
+  const std::array<FrontView, 5> views = {goal.start, sweep.views[0], sweep.views[1], sweep.views[2], sweep.views[3]};
+  Leg leg;
+  leg.turns_over = sweep.turns_over;
+  leg.touches = sweep.touches;
+  leg.goal_view = sweep.views[3];
   std::array<double, 5> energy{start.rate * start.rate};
   std::array<std::array<double, 5>, 4> rows;
   for (std::size_t i = 1; i < 5; ++i) {
@@ -91,7 +98,6 @@ Leg collocate(const Train& train, const FrontState& start, double span, double d
     }
     rows[i - 1][4] = known;
   }
-  Leg leg;
   if (!solve(rows, energy)) return leg;
   std::array<double, 5> slowness;
   for (std::size_t i = 0; i < 5; ++i) {
@@ -223,20 +229,25 @@ Leg make_slow_leg(const Train& train, const FrontState& start, const LegGoal& go
   return leg;
 }
 
-Leg make_leg(const Train& train, const FrontState& start, const LegGoal& goal) {
+Leg make_leg(Train& train, const FrontState& start, const LegGoal& goal) {
+  bool turns_over = true;  // For all we know.
   double span = goal.angle - start.angle;
   if (start.rate != 0.0) {
     for (int halving = 0; halving <= kMostHalvings; ++halving) {
-      Leg leg = collocate(train, start, span, goal.direction);
+      Leg leg = collocate(train, start, span, goal);
+      if (halving == 0) turns_over = leg.turns_over;
+      leg.turns_over = turns_over;
       if (leg.count != 0) {
-        leg.reached = halving == 0;
+        leg.reached = leg.swept = halving == 0;
         if (leg.reached) leg.nodes[4].angle = goal.angle;
         return leg;
       }
       span *= 0.5;
     }
   }
-  return make_slow_leg(train, start, goal);
+  Leg leg = make_slow_leg(train, start, goal);
+  leg.turns_over = turns_over;
+  return leg;
 }
 
 }  // namespace topple::hinge

@@ -10,9 +10,35 @@ namespace topple::hinge {
 
 namespace {
 
-Lean lean_of(const TrainBrick& brick, double direction, double sin_ahead, double cos_ahead) {
+template <typename Number>
+Lean<Number> lean_of(const TrainBrick& brick, double direction, Number sin_ahead, Number cos_ahead) {
   return brick.on_heel ? lean_on_heel(brick.pitch, brick.thickness_ahead, sin_ahead, cos_ahead)
                        : lean_on_face(brick.pitch, brick.thickness_ahead, direction * brick.friction, sin_ahead, cos_ahead);
+}
+
+// On the edge the ratio falls as the fall goes on, so that its value now bounds it; on the heel it stays under t^2 / (p^2 + t^2).
+double ratio_bound(const TrainBrick& brick, double ratio) {
+  const double p2 = brick.pitch * brick.pitch;
+  const double t2 = brick.thickness_ahead * brick.thickness_ahead;
+  return std::max(ratio, t2 / (p2 + t2));
+}
+
+// arcsin by its series, sum of (2n)! / (4^n n!^2 (2n + 1)) x^(2n+1): the first term left out is below 1e-16 of it. Bricks behind the front
+// lean little on each other; for the others there is the general function.
+double lean_angle(double sine) {
+  const double q = sine * sine;
+  if (q > 0.0625) return arc_sine(sine);
+  double series = 0.0;
+  if (q > 0.004) {
+    for (const double term : {0.006447210311889649, 0.0073125258735988454, 0.008390335809616815, 0.009761609529194078, 0.011551800896139705,
+                              0.01396484375, 0.017352764423076924}) {
+      series = q * (term + series);
+    }
+  }
+  for (const double term : {0.022372159090909092, 0.030381944444444444, 0.044642857142857144, 0.075, 0.16666666666666666}) {
+    series = q * (term + series);
+  }
+  return sine + sine * series;
 }
 
 // Walks from the front to the back and adds up what each brick is to the front brick: sum of G I R, G T and G I S, where R and S are
@@ -28,7 +54,7 @@ FrontView walk(std::size_t size, const TrainBrick* front, double front_angle, do
   double gain = 1.0;
   for (std::size_t k = 1; k < size; ++k) {
     const TrainBrick& brick = *(front - k);
-    const Lean lean = lean_of(brick, direction, s, c);
+    const auto lean = lean_of(brick, direction, s, c);
     s = lean.sin_behind;
     c = lean.cos_behind;
     curvature = lean.curvature * ratio * ratio + lean.ratio * curvature;
@@ -59,6 +85,8 @@ FrontView Train::view(double front_angle, double direction) const {
 
 FrontView Train::place(double front_angle, double direction) {
   double ahead = front_angle;
+  double bound = 1.0;
+  double ratio_ahead = 1.0;
   double sin_ahead = 0.0;
   double cos_ahead = 1.0;
   const TrainBrick* front = &bricks_.back();
@@ -66,7 +94,12 @@ FrontView Train::place(double front_angle, double direction) {
               [&](const TrainBrick& brick, double s, double c, double ratio, double curvature, double) {
                 auto& placed = const_cast<TrainBrick&>(brick);
                 // sin D, from which the angle against the brick ahead is more exact than from the angle itself.
-                if (&brick != front) ahead += arc_sine(s * cos_ahead - c * sin_ahead);
+                if (&brick != front) {
+                  ahead += lean_angle(s * cos_ahead - c * sin_ahead);
+                  bound *= ratio_bound(brick, ratio_ahead != 0.0 ? ratio / ratio_ahead : 0.0);
+                }
+                ratio_ahead = ratio;
+                placed.bound = bound;
                 placed.angle = ahead;
                 placed.ratio = ratio;
                 placed.curvature = curvature;
@@ -103,20 +136,75 @@ double Train::front_momentum(std::span<const double> rates, double direction) co
   return momentum;
 }
 
-double Train::last_travel(double front_angle) const {
-  // On the edge the ratio falls as the fall goes on, so that its value now bounds it; on the heel it stays under t^2 / (p^2 + t^2).
-  double bound = 0.5 * kPi - front_angle;
-  auto [s, c] = sin_cos(front_angle);
-  for (std::size_t k = 1; k < size(); ++k) {
-    const TrainBrick& brick = at(k);
-    const double p2 = brick.pitch * brick.pitch;
-    const double t2 = brick.thickness_ahead * brick.thickness_ahead;
-    const Lean lean = lean_of(brick, 1.0, s, c);
-    s = lean.sin_behind;
-    c = lean.cos_behind;
-    bound *= std::max(lean.ratio, t2 / (p2 + t2));
+FrontView Train::strike(const TrainBrick& standing, const FrontView& old) {
+  // The new front is upright, so the old one turns as fast as it (ratio 1), and the others as fast as they did against the old one.
+  const auto lean = lean_of(at(0), 1.0, 0.0, 1.0);
+  for (std::size_t k = 0; k < size(); ++k) at(k).curvature += at(k).ratio * lean.curvature;
+  add_front(standing);
+  return {standing.inertia + lean.gain * old.inertia, standing.torque_cos + lean.gain * old.torque,
+          lean.gain * (old.coupling + lean.curvature * old.inertia)};
+}
+
+double Train::last_travel(double front_angle) const { return bricks_[first_].bound * (0.5 * kPi - front_angle); }
+
+Sweep Train::sweep(const std::array<double, 4>& front_angles, double direction, double slack) {
+  // As walk(), on two pairs of angles.
+  std::array<Pair, 2> s, c, ratio, curvature, gain, inertia, torque, coupling;
+  const TrainBrick* front = &bricks_.back();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const SinCos low = sin_cos(front_angles[2 * i]);
+    const SinCos high = sin_cos(front_angles[2 * i + 1]);
+    s[i] = Pair{low.sin, high.sin};
+    c[i] = Pair{low.cos, high.cos};
+    ratio[i] = gain[i] = Pair{1.0, 1.0};
+    curvature[i] = coupling[i] = Pair{0.0, 0.0};
+    inertia[i] = Pair{front->inertia, front->inertia};
+    torque[i] = front->torque_sin * s[i] + front->torque_cos * c[i];
   }
-  return bound;
+  Sweep out;
+  double bound = 1.0;
+  for (std::size_t k = 1; k < size(); ++k) {
+    TrainBrick& brick = bricks_[bricks_.size() - 1 - k];
+    std::array<Lean<Pair>, 2> lean;
+    for (std::size_t i = 0; i < 2; ++i) {
+      lean[i] = lean_of(brick, direction, s[i], c[i]);
+      s[i] = lean[i].sin_behind;
+      c[i] = lean[i].cos_behind;
+      curvature[i] = lean[i].curvature * ratio[i] * ratio[i] + lean[i].ratio * curvature[i];
+      ratio[i] *= lean[i].ratio;
+      gain[i] *= lean[i].gain;
+      inertia[i] += gain[i] * brick.inertia * ratio[i];
+      torque[i] += gain[i] * (brick.torque_sin * s[i] + brick.torque_cos * c[i]);
+      coupling[i] += gain[i] * brick.inertia * curvature[i];
+    }
+    if (!brick.on_heel) {
+      out.turns_over |= lean[1].sin_lean[1] < -slack * brick.thickness_ahead;
+      out.touches |= lean[1].sin_lean[1] < slack * brick.thickness_ahead;
+    }
+    bound *= ratio_bound(brick, lean[1].ratio[1]);
+    brick.goal_lean = lean[1].sin_lean[1];
+    brick.goal_ratio = ratio[1][1];
+    brick.goal_curvature = curvature[1][1];
+    brick.goal_bound = bound;
+  }
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t i = j / 2;
+    const std::size_t lane = j % 2;
+    out.views[j] = {inertia[i][lane], torque[i][lane] + gain[i][lane] * load_, coupling[i][lane]};
+  }
+  return out;
+}
+
+void Train::place_at_goal(double front_angle) {
+  double angle = front_angle;
+  for (std::size_t k = 0; k < size(); ++k) {
+    TrainBrick& brick = at(k);
+    if (k > 0) angle += lean_angle(brick.goal_lean);
+    brick.angle = angle;
+    brick.ratio = k > 0 ? brick.goal_ratio : 1.0;
+    brick.curvature = k > 0 ? brick.goal_curvature : 0.0;
+    brick.bound = k > 0 ? brick.goal_bound : 1.0;
+  }
 }
 
 TrainBrick Train::drop_last(double direction) {

@@ -1,6 +1,7 @@
 /// The train: the bricks that move together behind one front, as the cooperative chain of [vanLeeuwen2010] sees them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,10 +24,17 @@ struct TrainBrick {
   double pitch = 0.0;            ///< Toe to toe, as a fraction of its height.
   double thickness_ahead = 0.0;  ///< As a fraction of its height.
   double friction = 0.0;         ///< Brick on brick.
+  double hit_angle = 0.0;        ///< Its tilt when it strikes the next brick; without meaning if there is none [rad].
   // Where it was when the train was placed last.
   double angle = 0.0;      ///< [rad]
   double ratio = 1.0;      ///< d angle / d front angle.
   double curvature = 0.0;  ///< d ratio / d front angle [1/rad].
+  double bound = 1.0;      ///< Upper bound of the ratio from there on.
+  // The same where the last sweep ended.
+  double goal_lean = 0.0;  ///< Sine of its angle against the brick ahead.
+  double goal_ratio = 1.0;
+  double goal_curvature = 0.0;
+  double goal_bound = 1.0;
 };
 
 /// What the whole train is to its front brick: inertia x acceleration = torque - coupling x rate^2.
@@ -36,6 +44,13 @@ struct FrontView {
   double coupling = 0.0;  ///< [kg m^2/rad]
 
   double acceleration(double rate) const { return (torque - coupling * rate * rate) / inertia; }
+};
+
+/// The train at four angles of its front.
+struct Sweep {
+  std::array<FrontView, 4> views;
+  bool turns_over = false;  ///< At the last of them a lean has passed the end of its edge by more than the slack,
+  bool touches = false;     ///< or is about there.
 };
 
 class Train {
@@ -56,6 +71,11 @@ class Train {
   /// The same, and writes angle, ratio and curvature of every brick.
   FrontView place(double front_angle, double direction);
 
+  /// At four angles at once, at little more than the cost of one. What the last of them is for each brick is kept.
+  Sweep sweep(const std::array<double, 4>& front_angles, double direction, double slack);
+  /// Puts the train where the last sweep ended.
+  void place_at_goal(double front_angle);
+
   /// The angle of brick `index` at an angle of the front [rad].
   double angle_of(std::size_t index, double front_angle) const;
 
@@ -67,7 +87,10 @@ class Train {
   /// train was placed last.
   double front_momentum(std::span<const double> rates, double direction) const;
 
-  /// Upper bound of what the last brick can still turn while the front goes on to the floor [rad].
+  /// A brick that stands is the new front, struck by the old one. The view is that of the old front where the train was placed last.
+  FrontView strike(const TrainBrick& standing, const FrontView& old);
+
+  /// Upper bound of what the last brick can still turn while the front goes from here to the floor [rad].
   double last_travel(double front_angle) const;
 
   /// Takes the last brick out. It leans on the new last one from then on with the weight of all those behind it.
