@@ -114,7 +114,7 @@ Result<ModelConfig> pivot_config(const Layout& layout) {
 }
 
 Result<ModelConfig> hinge_config(const Layout& layout) {
-  HingeConfig config;
+  HingeConfig config{.time_step = hinge::default_time_step(layout)};
   Settings settings(layout.model);
   settings.number("time_step_s", 1.0, 1e-6, 1.0, config.time_step);
   settings.number("rest_tolerance", 1.0, 1e-9, 0.1, config.rest_tolerance);

@@ -134,9 +134,7 @@ void Chain::advance(double until, Happenings& out) {
   }
 }
 
-LegGoal Chain::leg_goal() const {
-  return {goal_angle_, direction_, scene_->slow_step, 0.1 * scene_->rest_tolerance, view_};
-}
+LegGoal Chain::leg_goal() const { return {goal_angle_, direction_, scene_->slow_step, 0.1 * scene_->rest_tolerance, view_}; }
 
 void Chain::start_leg() {
   choose_goal();
@@ -398,7 +396,8 @@ void Chain::settle(const TrainBrick& brick, BrickId by, bool landed, Happenings&
   if (landed) out.events.push_back(event_at(state_.time, EventKind::landed, brick.id, by));
   out.events.push_back(event_at(state_.time, EventKind::rested, brick.id, kNoBrick));
   out.stopped.push_back({brick.id, brick.angle == 0.0 ? Phase::standing : Phase::resting, {brick.angle, 0.0, 0.0}});
-  out.settled += potential(brick);
+  const SinCos turned = sin_cos(brick.angle);
+  out.settled += potential(brick, turned.sin, turned.cos);
   scene_->angle_of(brick.id) = static_cast<float>(brick.angle);
 }
 
@@ -430,9 +429,8 @@ void Chain::read(std::vector<HingedMotion>& out) const {
   for (std::size_t k = train_.size(); k-- > 0;) out.push_back({train_.at(k).id, Phase::falling, state_of(train_.at(k))});
 }
 
-double Chain::potential(const TrainBrick& brick) const {
+double Chain::potential(const TrainBrick& brick, double s, double c) const {
   const BrickKind& kind = scene_->kind_of(brick.id);
-  const auto [s, c] = sin_cos(brick.angle);
   return 0.5 * kind.mass * scene_->layout->gravity * (kind.height * (c - 1.0) + kind.thickness * s);
 }
 
@@ -450,7 +448,7 @@ Energy Chain::energy() const {
   if (!moving_) return energy;
   for (std::size_t k = 0; k < train_.size(); ++k) {
     const TrainBrick& brick = train_.at(k);
-    energy.potential += potential(brick);
+    energy.potential += potential(brick, brick.sine, brick.cosine);
   }
   energy.kinetic = kinetic();
   return energy;

@@ -95,7 +95,7 @@ class Chain {
   void settle(const TrainBrick& brick, BrickId by, bool landed, Happenings& out);
   void rest_all(bool front_landed, BrickId by, Happenings& out);
   bool missed_next(BrickId id) const;
-  double potential(const TrainBrick& brick) const;
+  double potential(const TrainBrick& brick, double s, double c) const;  // s, c: sine and cosine of its angle.
   double kinetic() const;
   void restart(double rate);
   void remember_states();

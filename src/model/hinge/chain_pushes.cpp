@@ -60,7 +60,8 @@ void Chain::wake(Happenings& out) {
   remember_states();
   if (moving_ || (train_.size() == 1 && state_.angle == 0.0)) return;
   for (std::size_t k = 0; k < train_.size(); ++k) {
-    out.settled -= potential(train_.at(k));
+    const SinCos turned = sin_cos(train_.at(k).angle);
+    out.settled -= potential(train_.at(k), turned.sin, turned.cos);
     scene_->angle_of(train_.at(k).id) = HingeScene::kInTrain;
   }
 }

@@ -60,6 +60,9 @@ constexpr std::array<double, 5> kScale = scales();
 constexpr double kSmooth = 3e-4;
 constexpr int kMostHalvings = 3;
 
+// Newton's steps to the time of an angle end once one is this small, as a fraction of the way between two nodes: the next is its square.
+constexpr double kSettled = 1e-8;
+
 // Gauss without pivoting: the matrix is the identity plus integrals over a short leg.
 bool solve(std::array<std::array<double, 5>, 4>& rows, std::array<double, 5>& out) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -150,13 +153,8 @@ double energy_at(const std::array<FrontState, 5>& nodes, double fraction) {
   return energy;
 }
 
-}  // namespace
-
-FrontState Leg::at_time(double time) const {
-  std::size_t i = 1;
-  while (i + 1 < count && nodes[i].time < time) ++i;
-  const FrontState& a = nodes[i - 1];
-  const FrontState& b = nodes[i];
+// The quintic through angle, rate and acceleration of two nodes.
+FrontState between(const FrontState& a, const FrontState& b, double time) {
   // Angle = sum of c_n x^n with x from 0 to 1; the last three fulfil angle, rate and acceleration at the end.
   const double h = b.time - a.time;
   const double x = h > 0.0 ? (time - a.time) / h : 0.0;
@@ -175,6 +173,15 @@ FrontState Leg::at_time(double time) const {
     state.rate = (c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h;
     state.acceleration = (2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))) / (h * h);
   }
+  return state;
+}
+
+}  // namespace
+
+FrontState Leg::at_time(double time) const {
+  std::size_t i = 1;
+  while (i + 1 < count && nodes[i].time < time) ++i;
+  FrontState state = between(nodes[i - 1], nodes[i], time);
   if (count == kMostNodes && end().angle != nodes[0].angle) {  // The rate that the energy gives is more exact than that of the angle.
     const double energy = energy_at(nodes, (state.angle - nodes[0].angle) / (end().angle - nodes[0].angle));
     if (energy > 0.0) state.rate = state.rate < 0.0 ? -std::sqrt(energy) : std::sqrt(energy);
@@ -191,12 +198,13 @@ double Leg::time_of(double angle) const {
   const double span = nodes[i].angle - nodes[i - 1].angle;
   double time = span == 0.0 ? low : low + (high - low) * (angle - nodes[i - 1].angle) / span;
   for (int round = 0; round < 60 && low < high; ++round) {  // Newton, kept between what is known to be before and after.
-    const FrontState state = at_time(time);
+    const FrontState state = between(nodes[i - 1], nodes[i], time);
     (sign * (state.angle - angle) < 0.0 ? low : high) = time;
     double better = time - (state.angle - angle) / state.rate;
     if (!(better > low && better < high)) better = 0.5 * (low + high);
-    if (std::fabs(better - time) <= 1e-15 * (1.0 + std::fabs(time))) break;
+    const bool settled = std::fabs(better - time) <= kSettled * (nodes[i].time - nodes[i - 1].time);
     time = better;
+    if (settled) break;
   }
   return time;
 }

@@ -20,9 +20,9 @@ struct FrontState {
 struct Leg {
   static constexpr std::size_t kMostNodes = 5;
   std::array<FrontState, kMostNodes> nodes;
-  std::size_t count = 0;  ///< 0: there is no leg.
-  bool reached = false;   ///< It ends at the angle that was asked for.
-  bool swept = false;     ///< The train's goal fields are those of the goal, and the next three are known.
+  std::size_t count = 0;    ///< 0: there is no leg.
+  bool reached = false;     ///< It ends at the angle that was asked for.
+  bool swept = false;       ///< The train's goal fields are those of the goal, and the next three are known.
   bool turns_over = false;  ///< On the way to the goal a lean turns over, by more than the slack.
   bool touches = false;     ///< At the goal a lean is about to turn over.
   FrontView goal_view;

@@ -77,8 +77,13 @@ class Search {
   const Brick& brick(BrickId id) const { return layout_.bricks[static_cast<std::size_t>(id)]; }
   Link& link(BrickId id) { return links_[static_cast<std::size_t>(id)]; }
   Axis axis_of(BrickId id) const {
-    const SinCos heading = sin_cos(brick(id).heading);
-    return {heading.cos, heading.sin};
+    const double heading = brick(id).heading;
+    if (heading != last_heading_) {  // A row has one heading.
+      const SinCos turned = sin_cos(heading);
+      last_heading_ = heading;
+      last_axis_ = {turned.cos, turned.sin};
+    }
+    return last_axis_;
   }
   Patch footprint(BrickId id) const {
     const Brick& b = brick(id);
@@ -124,6 +129,8 @@ class Search {
   };
   std::vector<Reach> aside_;  // Bricks in reach that are not the nearest one.
   std::vector<Rectangle> boxes_;
+  mutable double last_heading_ = 0.0;
+  mutable Axis last_axis_;
   std::string problems_;
   std::size_t count_ = 0;
 };

@@ -101,6 +101,8 @@ FrontView Train::place(double front_angle, double direction) {
                 ratio_ahead = ratio;
                 placed.bound = bound;
                 placed.angle = ahead;
+                placed.sine = s;
+                placed.cosine = c;
                 placed.ratio = ratio;
                 placed.curvature = curvature;
                 sin_ahead = s;

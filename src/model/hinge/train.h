@@ -27,6 +27,8 @@ struct TrainBrick {
   double hit_angle = 0.0;        ///< Its tilt when it strikes the next brick; without meaning if there is none [rad].
   // Where it was when the train was placed last.
   double angle = 0.0;      ///< [rad]
+  double sine = 0.0;       ///< Of the angle, and
+  double cosine = 1.0;     ///< its cosine; not kept where a sweep ended.
   double ratio = 1.0;      ///< d angle / d front angle.
   double curvature = 0.0;  ///< d ratio / d front angle [1/rad].
   double bound = 1.0;      ///< Upper bound of the ratio from there on.
