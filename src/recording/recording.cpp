@@ -13,6 +13,8 @@ namespace {
 // A free brick this close to upright at its end counts as standing [rad].
 constexpr double kUprightTilt = 0.0174532925199433;
 
+constexpr double kMostTurn = 1e3;  // [rad]
+
 Vec3 turned(const Vec3& v, double heading) {
   const SinCos turn = sin_cos(heading);
   return {turn.cos * v.x - turn.sin * v.y, turn.sin * v.x + turn.cos * v.y, v.z};
@@ -23,7 +25,8 @@ BrickState hinged_state(const Layout& layout, BrickId brick, const HingedState& 
   const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
   const double along = extents(layout.kind_of(brick), put.stance).along;
   BrickState state;
-  state.pose = hinged_pose(layout, brick, hinge.angle);
+  // A damaged file may swing without bounds between two knots; whatever it shows, it is a pose.
+  state.pose = hinged_pose(layout, brick, std::clamp(hinge.angle, -kMostTurn, kMostTurn));
   state.hinge = hinge;
   state.angular_velocity = turned({0.0, hinge.rate, 0.0}, put.heading);
   const Vec3 edge = put.foot + turned({hinge.angle >= 0.0 ? 0.5 * along : -0.5 * along, 0.0, 0.0}, put.heading);
