@@ -1,6 +1,8 @@
 /// The polynomials between two knots.
 #pragma once
 
+#include <cmath>
+
 #include "topple/model.h"
 #include "topple/recording.h"
 
@@ -12,6 +14,7 @@ struct Quintic {
 
   double at(double u) const { return u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))); }
   double slope(double u) const { return c1 + u * (2.0 * c2 + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5))); }
+  double most_bend() const { return 2.0 * std::abs(c2) + 6.0 * std::abs(c3) + 12.0 * std::abs(c4) + 20.0 * std::abs(c5); }  ///< Or less.
   double bend(double u) const { return 2.0 * c2 + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5)); }
 };
 

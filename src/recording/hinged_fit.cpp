@@ -18,7 +18,7 @@ constexpr double kLongestPiece = 3.0;  // [s]
 constexpr double kRateJump = 0.02;
 // A pause is held to its angle at so many moments.
 constexpr int kHolds = 16;
-// What is left of the tolerance for rounding in floats, and for what happens between two samples, as a fraction of it.
+// What is left of the tolerance for rounding in floats, and for a curve that is smooth where the motion has a jump, between two samples.
 constexpr double kBetweenSamples = 0.05;
 constexpr float kMargin = 0.94F;
 
@@ -77,6 +77,7 @@ void HingedFit::open(BrickId brick, double time, const HingedState& state, doubl
   tolerance_ = static_cast<float>(tolerance) * kMargin;
   round_ = tolerance >= KnotSteps::kFinestTolerance;
   again_ = again;
+  turn_angle_ = state.angle;
   paused_ = false;
   start_ = time;
   count_ = good_ = 0;
@@ -131,7 +132,10 @@ bool HingedFit::fits(std::size_t count) const {
   const HingedKnot last = knot_at(count - 1);
   const double span = double{last.time} - base_time_;
   if (span <= 0.0) return false;
-  return within(Curve(quintic(knots_.back(), last, span), span), times(), angles(), count, tolerance_);
+  const Quintic curve = quintic(knots_.back(), last, span);
+  const bool smoothed = !kinks_.empty() && kinks_.front().index + 1 < count;
+  if (smoothed && curve.most_bend() * (step_ * step_) > 8.0 * kBetweenSamples * double{tolerance_} * (span * span)) return false;
+  return within(Curve(curve, span), times(), angles(), count, tolerance_);
 }
 
 std::size_t HingedFit::longest(std::size_t good, std::size_t bad) const {
@@ -205,18 +209,19 @@ void HingedFit::store(TrackStore& out) {
   knots_.clear();
 }
 
-// Whether a jump must be kept as one. Smoothing over it is checked at the samples only, and between two of them, `step` apart, the angle
-// of a bend of the rate is off by an eighth of bend times step.
-bool HingedFit::matters(const Kink& kink, double step) {
+// Whether a jump must be kept as one: not where the brick has hardly moved since the last, as when one that rests finds its hold again.
+bool HingedFit::matters(const Kink& kink) {
   top_rate_ = std::max({top_rate_, std::abs(kink.before.rate), std::abs(kink.after.rate)});
-  const double jump = std::abs(kink.after.rate - kink.before.rate);
-  return (jump > kRateJump * top_rate_ && !never_left()) || jump * step > 8.0 * kBetweenSamples * double{tolerance_};
+  const bool moved = std::abs(kink.before.angle - turn_angle_) > double{tolerance_};
+  turn_angle_ = kink.before.angle;
+  return moved && std::abs(kink.after.rate - kink.before.rate) > kRateJump * top_rate_;
 }
 
 void HingedFit::add_kink(const Kink& kink, double step, TrackStore& out) {
   append(kink.time, kink.before);
   kinks_.push_back({count_ - 1, kink.after.rate, kink.after.acceleration});
-  if (matters(kink, step)) {
+  step_ = step;
+  if (matters(kink)) {
     flush(out);
   } else if (count_ >= next_test_) {
     stretch(out);
@@ -226,12 +231,14 @@ void HingedFit::add_kink(const Kink& kink, double step, TrackStore& out) {
 void HingedFit::pause(double time, const HingedState& state, TrackStore& out) {
   if (!at(time)) add(time, {state.angle, 0.0, 0.0}, out);
   paused_at_ = time;
+  turn_angle_ = state.angle;
   paused_ = true;
   stop();
 }
 
 void HingedFit::pause() {
   paused_at_ = base_clock_ + (count_ > 0 ? double{times()[count_ - 1]} : 0.0);
+  turn_angle_ = base_angle_ + (count_ > 0 ? double{angles()[count_ - 1]} : 0.0);
   paused_ = true;
   stop();
 }

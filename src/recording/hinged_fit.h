@@ -62,7 +62,7 @@ class HingedFit {
   void cut(std::size_t count, TrackStore& out);
   void push_knot(const HingedKnot& knot);
   void store(TrackStore& out);
-  bool matters(const Kink& kink, double step);
+  bool matters(const Kink& kink);
 
   /// A small jump that may yet be smoothed over: what came after the sample `index`.
   struct PendingKink {
@@ -84,10 +84,12 @@ class HingedFit {
 
   std::size_t good_ = 0;  // So many samples are known to fit.
   float tolerance_ = 0.0F;
-  double paused_at_ = 0.0;  // [s]
-  double start_ = 0.0;      // Of this piece [s].
-  double base_time_ = 0.0;  // base_clock_ - start_, as the knot has it [s].
-  double top_rate_ = 0.0;   // Largest at a knot or jump so far [rad/s].
+  double paused_at_ = 0.0;   // [s]
+  double turn_angle_ = 0.0;  // At the last jump or rest [rad].
+  double step_ = 0.0;        // Between two samples [s].
+  double start_ = 0.0;       // Of this piece [s].
+  double base_time_ = 0.0;   // base_clock_ - start_, as the knot has it [s].
+  double top_rate_ = 0.0;    // Largest at a knot or jump so far [rad/s].
   std::vector<HingedKnot> knots_;
   std::vector<PendingKink> kinks_;
 };

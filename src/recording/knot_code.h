@@ -10,13 +10,13 @@
 
 namespace topple {
 
-/// The steps of a rounded knot, powers of two so that a float has each multiple exactly. At the default tolerance they are a thousandth
-/// of what a knot may be off; finer tolerances keep their floats as they are.
+/// The steps of a rounded knot, powers of two so that a float has each multiple exactly. At the default tolerance they are less than
+/// a hundredth of what a knot may be off; finer tolerances keep their floats as they are.
 struct KnotSteps {
   static constexpr double kTime = 0x1p-22;          ///< [s]
-  static constexpr double kAngle = 0x1p-21;         ///< [rad]
+  static constexpr double kAngle = 0x1p-20;         ///< [rad]
   static constexpr double kRate = 0x1p-9;           ///< [rad/s]
-  static constexpr double kAcceleration = 0x1p-4;   ///< [rad/s^2]
+  static constexpr double kAcceleration = 0x1p-3;   ///< [rad/s^2]
   static constexpr double kFinestTolerance = 1e-4;  ///< Of an angle [rad].
 };
 
