@@ -86,6 +86,7 @@ void HingedFit::open(BrickId brick, double time, const HingedState& state, doubl
   knots_.clear();
   kinks_.clear();
   push_knot(knot(0.0, state));
+  fresh_ = true;
 }
 
 void HingedFit::push_knot(const HingedKnot& knot) {
@@ -146,7 +147,23 @@ std::size_t HingedFit::longest(std::size_t good, std::size_t bad) const {
   return good;
 }
 
+// A model may not know the acceleration just after a jump. If that of the first sample explains the rates that follow much better, it is
+// taken instead.
+void HingedFit::refine_start() {
+  fresh_ = false;
+  if (count_ < 4) return;
+  HingedKnot& start = knots_.back();
+  const double told = double{start.acceleration};
+  const double first = double{accelerations()[0]};
+  if (std::abs(first - told) <= 0.1 * std::max(std::abs(first), std::abs(told))) return;
+  const double change = double{rates()[3]} - double{start.rate};
+  const double time = double{times()[3]};
+  if (2.0 * std::abs(change - first * time) < std::abs(change - told * time))
+    start.acceleration = knot(0.0, {0.0, 0.0, first}).acceleration;
+}
+
 void HingedFit::stretch(TrackStore& out) {
+  if (fresh_) refine_start();
   while (count_ >= next_test_) {
     const std::size_t asked = next_test_;
     if (!fits(asked)) {
@@ -161,6 +178,7 @@ void HingedFit::stretch(TrackStore& out) {
 }
 
 void HingedFit::flush(TrackStore& out) {
+  if (fresh_) refine_start();
   while (count_ > 0) {
     const std::size_t all = count_;
     cut(fits(all) ? all : longest(std::max<std::size_t>(good_, 1), all), out);
@@ -170,6 +188,7 @@ void HingedFit::flush(TrackStore& out) {
 // Ends a segment at sample count - 1 and lets what is left start from there.
 void HingedFit::cut(std::size_t count, TrackStore& out) {
   const std::size_t index = count - 1;
+  fresh_ = false;
   const double old_time = base_time_;
   const double old_angle = base_angle_;
   push_knot(knot_at(index));
@@ -182,6 +201,7 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
     after.time = knots_.back().time;
     after.angle = knots_.back().angle;
     push_knot(after);
+    fresh_ = true;
   }
   kinks_.erase(kinks_.begin(), kinks_.begin() + static_cast<std::ptrdiff_t>(passed));
   for (PendingKink& kink : kinks_) kink.index -= count;

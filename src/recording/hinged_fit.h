@@ -54,6 +54,7 @@ class HingedFit {
   void stop();
   bool fits(std::size_t count) const;
   bool never_left() const;
+  void refine_start();
   HingedKnot knot(double time, const HingedState& state) const;
   HingedKnot knot_at(std::size_t index) const;
   std::size_t longest(std::size_t good, std::size_t bad) const;
@@ -75,6 +76,7 @@ class HingedFit {
   bool paused_ = false;
   bool round_ = true;  // Knots are multiples of KnotSteps.
   bool again_ = false;
+  bool fresh_ = false;  // The last knot is what came after a jump.
   std::size_t count_ = 0;
   std::size_t room_ = 0;
   std::size_t next_test_ = 0;

@@ -206,3 +206,24 @@ TEST_CASE("a long wave costs few bytes a brick") {
   // Twelve hits that matter are 24 knots of 16 bytes and the two ends; a piece and its index take 36 bytes more.
   CHECK(static_cast<double>(recording.memory()) / kBricks < 26 * 16 + 36 + 25);
 }
+
+TEST_CASE("an acceleration that a model does not know after a jump costs no knots") {
+  // After a jump at 30 ms the model says an acceleration of 0, and has 80 rad/s^2 from its next step on.
+  class Forgetful : public HingedScript {
+   public:
+    using HingedScript::HingedScript;
+    void read(Frame& out) const override {
+      HingedScript::read(out);
+      for (Kink& kink : out.kinks) {
+        if (kink.time > 0.02) kink.after.acceleration = 0.0;
+      }
+    }
+  };
+  Motion motion{0, {{0.01, 0.0, 4.0, 20.0, 0.0, 0.0, 10.0}}, 0.06};
+  then(motion, 0.03, {0.0, 0.0, 1.0, 80.0, 0.0, 0.0, 10.0});
+  Forgetful script({motion}, 0.0005);
+  const Recording recording = record(row(1), script);
+  const Track track = recording.track(0);
+  CHECK(track.hinged.size() == 5);  // Beginning, before and after the jump, before and after the end.
+  CHECK(worst_corner(recording, motion, 0.01, 0.06, 4000) <= 0.002);
+}
