@@ -249,7 +249,9 @@ void HingedFit::add_kink(const Kink& kink, double step, TrackStore& out) {
 }
 
 void HingedFit::pause(double time, const HingedState& state, TrackStore& out) {
-  if (!at(time)) add(time, {state.angle, 0.0, 0.0}, out);
+  const bool stopped = count_ == 0 && knots_.back().rate == 0.0F && knots_.back().acceleration == 0.0F &&
+                       std::abs(state.angle - base_angle_) <= kBetweenSamples * double{tolerance_};
+  if (!stopped && !at(time)) add(time, {state.angle, 0.0, 0.0}, out);
   paused_at_ = time;
   turn_angle_ = state.angle;
   paused_ = true;

@@ -219,11 +219,11 @@ TEST_CASE("an acceleration that a model does not know after a jump costs no knot
       }
     }
   };
-  Motion motion{0, {{0.01, 0.0, 4.0, 20.0, 0.0, 0.0, 10.0}}, 0.06};
-  then(motion, 0.03, {0.0, 0.0, 1.0, 80.0, 0.0, 0.0, 10.0});
+  Motion motion{0, {{0.01, 0.0, 4.0, 20.0, 0.0, 0.0, 10.0}}, 0.0603};
+  then(motion, 0.0301, {0.0, 0.0, 1.0, 80.0, 0.0, 0.0, 10.0});
   Forgetful script({motion}, 0.0005);
   const Recording recording = record(row(1), script);
   const Track track = recording.track(0);
   CHECK(track.hinged.size() == 5);  // Beginning, before and after the jump, before and after the end.
-  CHECK(worst_corner(recording, motion, 0.01, 0.06, 4000) <= 0.002);
+  CHECK(worst_corner(recording, motion, 0.01, 0.0603, 4000) <= 0.002);
 }
