@@ -82,7 +82,7 @@ class Chain {
   void start_leg();
   void choose_goal();
   LegGoal leg_goal() const;
-  double lean_angle(BrickId front, BrickId next) const;
+  double lean_angle(BrickId id, BrickId next) const;
   void find_turn_over(double from);
   void find_arrivals();
   void emit_arrivals(double until, Happenings& out);
