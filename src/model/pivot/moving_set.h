@@ -37,6 +37,8 @@ struct Moving {
   Fall fall;                    ///< Now.
   double acceleration = 0.0;    ///< Now [rad/s^2].
   double report_torque = 0.0;   ///< Of the force that acts on it, with the arm that (2.5) gives it [N m].
+  double kinetic = 0.0;         ///< Energy when it was last looked at [J].
+  double potential = 0.0;       ///< Energy when it was last looked at [J].
   std::int32_t first_push = 0;  ///< The push that began its line.
   std::vector<Kink> kinks;      ///< Its latest, for those that follow it.
   std::vector<Pair> ahead;      ///< One for each brick that it strikes.

@@ -62,7 +62,10 @@ void PivotModel::turn_bricks() {
   turned_.clear();
   for (const std::int32_t slot : moving_.order()) {
     if (!look_at_all && moving_[slot].follows) continue;
-    turn(moving_[slot]);
+    Moving& moving = moving_[slot];
+    turn(moving);
+    moving.kinetic = 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
+    moving.potential = potential(*moving.body, moving.fall.turned);
     turned_.push_back(slot);
   }
 }
@@ -83,6 +86,8 @@ void PivotModel::turn(Moving& moving) {
   if (const auto [bound, pair] = tightest_bound(moving, to); pair != nullptr && to.theta >= bound.theta) {
     catch_up(moving, from, to, bound, pair->ahead());
     lean(moving, from, bound, to.omega);
+    // Known only now: how the bound moves it from the moment of catching up on.
+    kinks_.back().after.acceleration = moving.side * moving.acceleration;
   } else {
     if (to.theta >= kRightAngle) land(moving, from, to);
     moving.fall = to;
@@ -327,8 +332,8 @@ void PivotModel::read(Frame& out) const {
   for (const std::int32_t slot : moving_.order()) {
     const Moving& moving = moving_[slot];
     if (moving.fall.time == end_) out.hinged.push_back({moving.brick, moving.phase, state(moving)});
-    out.energy.kinetic += 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
-    out.energy.potential += potential(*moving.body, moving.fall.turned);
+    out.energy.kinetic += moving.kinetic;
+    out.energy.potential += moving.potential;
   }
   out.hinged.insert(out.hinged.end(), retired_.begin(), retired_.end());
 }
