@@ -95,22 +95,22 @@ void check_push(const Push& push, std::string& problems) {
                          " is backwards; hinge turns bricks about their toes only; rigid can");
 }
 
-// The time in which the tilt of the smallest brick grows e times from balance [s].
-double growth_time(const Layout& layout) {
+// The time in which a brick's tilt from balance grows e times [s].
+double growth_time(double height, double thickness, double gravity) {
+  return std::sqrt(2.0 * std::sqrt(height * height + thickness * thickness) / (3.0 * gravity));
+}
+double least_growth_time(const Layout& layout) {
   double least = std::numeric_limits<double>::infinity();
-  for (const BrickKind& kind : layout.kinds) {
-    least =
-        std::min(least, std::sqrt(2.0 * std::sqrt(kind.height * kind.height + kind.thickness * kind.thickness) / (3.0 * layout.gravity)));
-  }
+  for (const BrickKind& kind : layout.kinds) least = std::min(least, growth_time(kind.height, kind.thickness, layout.gravity));
   return least;
 }
 
 // The time step where a train is slow, as a fraction of that: there the fourth-order step errs by 1e-9 (tests/model/hinge_leg_test.cpp).
 constexpr double kSlowStep = 0.02;
 
-// How often the motion is read: bricks of 48 x 7.5 mm (growth time 57 ms) every 16 ms. Measured there: with the kinks between, the Hermite
-// polynomial is as good as at 4 ms, within 0.05 % of the thickness at a corner.
-constexpr double kReadStep = 0.016 * 17.403662;
+// How often the motion is read: bricks of 48 x 7.5 mm every 16 ms. Measured there: with the kinks between, the Hermite polynomial is as
+// good as at 4 ms, within 0.05 % of the thickness at a corner.
+constexpr double kReadStep = 0.016;
 
 // Two pushed bricks in one row would make two waves that meet.
 void check_rows(const std::vector<Link>& links, const std::vector<BrickId>& pushed, std::string& problems) {
@@ -129,7 +129,9 @@ void check_rows(const std::vector<Link>& links, const std::vector<BrickId>& push
 
 }  // namespace
 
-double default_time_step(const Layout& layout) { return std::min(kReadStep * growth_time(layout), 1.0); }
+double default_time_step(const Layout& layout) {
+  return std::min(kReadStep * (least_growth_time(layout) / growth_time(0.048, 0.0075, 9.81)), 1.0);
+}
 
 Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const HingeConfig& config) {
   std::string problems;
@@ -156,7 +158,7 @@ Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const Hing
 
   scene.rest_tolerance = config.rest_tolerance;
   scene.time_step = config.time_step;
-  scene.slow_step = kSlowStep * growth_time(layout);
+  scene.slow_step = kSlowStep * least_growth_time(layout);
   scene.angles.resize(layout.bricks.size(), 0.0F);
   auto model = std::make_unique<HingeModel>(std::move(scene), config.time_step);
   for (const BrickId brick : pushed) {
