@@ -52,6 +52,7 @@ Status PivotModel::step() {
   const Status status = check_and_hash();
   rest_bricks();
   std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+  std::stable_sort(kinks_.begin(), kinks_.end(), [](const Kink& a, const Kink& b) { return a.time < b.time; });
   if (status.progress == Progress::not_finite) return status;
   const bool done = moving_.order().empty() && next_push_ == pushes_.size();
   return {.progress = done ? Progress::at_rest : Progress::running};
@@ -80,7 +81,8 @@ void PivotModel::turn(Moving& moving) {
   }
   const Fall from = moving.fall;
   Fall to = advance(moving.turning, from, end_, config_.integrator);
-  if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) to = {.time = end_};  // Back on its foot.
+  note_end_of_push(moving, from);
+  if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) come_back_to_foot(moving, from, to);
   moving.held_up = to.omega < 0.0 && stop_on_brick_behind(moving, from, to);
   moving.acceleration = moving.turning.acceleration(to.turned, end_);
   if (const auto [bound, pair] = tightest_bound(moving, to); pair != nullptr && to.theta >= bound.theta) {
@@ -94,6 +96,24 @@ void PivotModel::turn(Moving& moving) {
   }
   note_arrival(moving, from, moving.fall);
   if (from.time < moving.turning.push_until) push_work_ += moving.turning.push * moving.body->inertia * (to.theta - from.theta);
+}
+
+void PivotModel::note_end_of_push(Moving& moving, const Fall& from) {
+  const double until = moving.turning.push_until;
+  if (moving.turning.push == 0.0 || from.time >= until || until > end_) return;
+  const Fall at = advance(moving.turning, from, until, config_.integrator);
+  if (at.theta <= 0.0 || at.theta >= kRightAngle) return;
+  const double after = moving.turning.acceleration(at.turned, until);
+  kink(moving, until, {at.theta, at.omega, after + moving.turning.push}, {at.theta, at.omega, after});
+}
+
+void PivotModel::come_back_to_foot(Moving& moving, const Fall& from, Fall& to) {
+  if (from.theta > 0.0) {
+    const double share = from.theta / (from.theta - to.theta);
+    const double omega = from.omega + share * (to.omega - from.omega);
+    kink(moving, from.time + share * (end_ - from.time), {0.0, omega, -moving.turning.cosine}, {});
+  }
+  to = {.time = end_};
 }
 
 bool PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const {

@@ -55,6 +55,8 @@ class PivotModel final : public Model {
   // One brick.
   Moving& wake_or_find(BrickId brick, double time);
   void turn(Moving& moving);
+  void note_end_of_push(Moving& moving, const Fall& from);
+  void come_back_to_foot(Moving& moving, const Fall& from, Fall& to);
   bool stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const;
   std::pair<Bound, const Pair*> tightest_bound(const Moving& moving, const Fall& to) const;
   bool stay_leaning(Moving& moving);
