@@ -46,7 +46,7 @@ void declare(CLI::App& app, RunOptions& options, const std::string& what) {
   app.add_option(what, options.file,
                  what == "LAYOUT" ? "A layout file (.toml)" : "A recording (.topple), or a layout file (.toml), which is run first")
       ->required();
-  app.add_option("--model", options.model, "The model, over what the layout says (pivot or hinge)")->type_name("NAME");
+  app.add_option("--model", options.model, "The model, over what the layout says (pivot, hinge or rigid)")->type_name("NAME");
   app.add_option("--set", options.settings,
                  "A setting over what the layout says, as often as needed: a dotted key of the file, or one of [model]")
       ->type_name("KEY=VALUE")
