@@ -150,6 +150,7 @@ Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const Hing
   scene.links = std::move(*links);
 
   std::vector<BrickId> pushed;
+  pushed.reserve(layout.pushes.size());
   for (const Push& push : layout.pushes) pushed.push_back(push.brick);
   std::sort(pushed.begin(), pushed.end());
   pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());

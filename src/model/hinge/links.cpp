@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "base/trigonometry.h"
 
@@ -109,8 +110,8 @@ class Search {
     return (brick(other).foot.x - brick(id).foot.x) * axis.x + (brick(other).foot.y - brick(id).foot.y) * axis.y;
   }
   bool full() const { return count_ >= kMostProblems; }
-  void problem(std::string text) {
-    if (count_++ < kMostProblems) problems_ += (problems_.empty() ? "" : "\n") + text;
+  void problem(std::string_view text) {
+    if (count_++ < kMostProblems) problems_.append(problems_.empty() ? "" : "\n").append(text);
   }
 
   void check_stances();
