@@ -41,7 +41,7 @@ Scratch make_scratch() { return {std::tmpfile(), std::fclose}; }
 /// What was written to a scratch file, at most its first lines.
 std::string first_words(std::FILE* scratch) {
   std::array<char, 400> buffer{};
-  std::rewind(scratch);
+  if (std::fseek(scratch, 0, SEEK_SET) != 0) return {};
   const std::size_t size = std::fread(buffer.data(), 1, buffer.size(), scratch);
   std::string words(buffer.data(), size);
   std::replace(words.begin(), words.end(), '\n', ' ');
@@ -173,10 +173,10 @@ Result<void> draw(const GnuplotScript& script, const fs::path& path) {
     fs::remove(unfinished, ignored);
     return failure("The figure " + path.string() + " cannot be drawn: " + why);
   };
-  if (input == nullptr || errors == nullptr || std::fputs(script.text().c_str(), input.get()) < 0 || std::fflush(input.get()) != 0) {
+  if (input == nullptr || errors == nullptr || std::fputs(script.text().c_str(), input.get()) < 0 || std::fflush(input.get()) != 0 ||
+      std::fseek(input.get(), 0, SEEK_SET) != 0) {
     return give_up("there is no room for scratch files.");
   }
-  std::rewind(input.get());
   pid_t child = 0;
   if (const int problem = start_gnuplot(child, fileno(input.get()), fileno(output.get()), fileno(errors.get())); problem != 0) {
     return give_up(problem == ENOENT ? std::string("gnuplot is not installed (Debian: gnuplot-nox).")

@@ -46,17 +46,28 @@ Result<void> plot_convergence(std::span<const ErrorCurve> curves, const std::fil
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const ErrorCurve& curve = curves[i];
     std::vector<Point> points;
+    points.reserve(curve.time_steps.size());
     for (std::size_t k = 0; k < curve.time_steps.size(); ++k) {
       points.push_back({curve.time_steps[k], curve.errors[k]});
     }
     const std::string number = std::to_string(i);
     script->data("$curve" + number, points);
     const std::string title = curve.name + ", slope " + rounded(curve.slope, 3);
-    lines += (i == 0 ? "" : ", ") + ("$curve" + number) + " with linespoints pt " + std::to_string(5 + 2 * i) + " ps 0.7 " +
-             curve_style(i) + " title '" + title + "'";
+    lines += i == 0 ? "$curve" : ", $curve";
+    lines += number;
+    lines += " with linespoints ps 0.7 pt ";
+    lines += std::to_string(5 + 2 * i);
+    lines += " ";
+    lines += curve_style(i);
+    lines += " title '";
+    lines += title;
+    lines += "'";
     if (const std::vector<Point> line = guide(curves, i); !line.empty()) {
       script->data("$guide" + number, line);
-      guides += ", $guide" + number + " with lines lc rgb '#888888' dt (3,3) lw 0.9 " + (i == 0 ? "title 'whole slopes'" : "notitle");
+      guides += ", $guide";
+      guides += number;
+      guides += " with lines lc rgb '#888888' dt (3,3) lw 0.9 ";
+      guides += (i == 0 ? "title 'whole slopes'" : "notitle");
     }
   }
   script->line("set logscale xy\nset format '10^{%L}'\nset mxtics 10\nset mytics 1\nset key outside top center horizontal maxrows 2");

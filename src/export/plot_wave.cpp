@@ -47,6 +47,7 @@ Result<void> plot_arrival(const Recording& recording, const std::filesystem::pat
   }
   const LengthUnit unit = unit_for(wave.distance.back());
   std::vector<Point> points;
+  points.reserve(wave.bricks.size());
   for (std::size_t i = 0; i < wave.bricks.size(); ++i) {
     points.push_back({wave.distance[i] * unit.scale, wave.arrival[i]});
   }
@@ -65,6 +66,7 @@ Result<void> plot_speed(const Recording& recording, const std::filesystem::path&
   const LengthUnit unit = unit_for(wave.distance.back());
   const std::size_t window = std::clamp<std::size_t>(wave.bricks.size() / 200, 1, 10);
   std::vector<Point> points;
+  points.reserve(wave.bricks.size());
   for (std::size_t i = 0; i < wave.bricks.size(); ++i) {
     points.push_back({wave.distance[i] * unit.scale, wave.local_speed(i, window)});
   }
