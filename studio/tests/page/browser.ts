@@ -6,11 +6,12 @@ import { mkdir, mkdtemp, readFile, rm } from 'node:fs/promises';
 import { createServer, type Server } from 'node:http';
 import { tmpdir } from 'node:os';
 import { extname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 import { chromium, type Browser } from 'playwright-core';
 import { makeRecording } from '../make_recording.ts';
 
-const kHere = new URL('.', import.meta.url).pathname;
+const kHere = fileURLToPath(new URL('.', import.meta.url));
 const kDist = join(kHere, '../../dist');
 export const kOut = join(kHere, '../out');
 export const kRoot = join(kHere, '../../..');
