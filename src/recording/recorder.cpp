@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "recording/free_tracks.h"
 #include "recording/hinged_fit.h"
 #include "recording/store.h"
 
@@ -42,6 +43,7 @@ struct Recorder::Open {
   std::vector<HingedFit> fits;
   std::vector<std::int32_t> unused;  // Places in `fits`.
   Track last;                        // A buffer.
+  FreeTracks free;
 };
 
 // Opens the track of a brick. One that moved before goes on from its last knot, if it is as near as it should be.
@@ -174,6 +176,7 @@ void Recorder::take(const Model& model) {
   ++open.step;
   open.take_kinks();
   open.take_hinged();
+  open.free.take(open.frame, open.time_step, open.store.layout, open.store.tracks);
   if (open.step % kStepsBetweenCloses == 0) open.close_long_paused();
   for (const Event& event : model.events()) open.store.add_event(event);
   open.take_energy(model.step_count());
@@ -185,6 +188,7 @@ void Recorder::close_tracks() {
   for (HingedFit& fit : open_->fits) {
     if (fit.is_open()) open_->close(fit, fit.paused());
   }
+  open_->free.close_all(open_->store.tracks);
 }
 
 void Recorder::finish(RunEnd end) {

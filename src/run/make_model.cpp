@@ -123,7 +123,7 @@ Result<ModelConfig> hinge_config(const Layout& layout) {
 }
 
 Result<ModelConfig> rigid_config(const Layout& layout) {
-  RigidConfig config;
+  RigidConfig config{.time_step = rigid::default_time_step(layout)};
   Settings settings(layout.model);
   settings.number("time_step_s", 1.0, 1e-6, 0.05, config.time_step);
   if (auto checked = settings.finish("rigid"); !checked) return std::unexpected(checked.error());

@@ -120,8 +120,9 @@ TEST_CASE("h5py reads an exported run by the documented names") {
   REQUIRE_MESSAGE(exported.has_value(), exported.error().message);
   CHECK_FALSE(std::filesystem::exists(folder / "run.h5.part"));
   // Debian's python3, for which there is a package of h5py.
-  const std::string command = "/usr/bin/python3 " TOPPLE_SOURCE_DIR "/tests/export/read_hdf5.py " + (folder / "run.h5").string() + " > " +
-                              (folder / "found.json").string();
+  const auto quoted = [](const std::string& path) { return "'" + path + "'"; };
+  const std::string command = "/usr/bin/python3 " + quoted(TOPPLE_SOURCE_DIR "/tests/export/read_hdf5.py") + " " +
+                              quoted((folder / "run.h5").string()) + " > " + quoted((folder / "found.json").string());
   REQUIRE(std::system(command.c_str()) == 0);
   const std::string found = lines_of(folder / "found.json").at(0);
   const auto says = [&](const std::string& what) { return found.find(what) != std::string::npos; };
