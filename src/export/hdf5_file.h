@@ -68,7 +68,7 @@ class Writer {
   void text(const std::string& name, std::string_view text, std::string_view meaning) {
     write(name, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), 1, "", meaning);
   }
-  void attribute(const std::string& object, const std::string& name, std::string_view text);  ///< Cut at 60,000 bytes: HDF5 takes 64 KiB.
+  void attribute(const std::string& object, const std::string& name, std::string_view whole);  ///< Cut at 60,000 bytes: HDF5 takes 64 KiB.
   template <typename T>
     requires std::is_arithmetic_v<T>
   void attribute(const std::string& object, const std::string& name, T number) {
