@@ -113,16 +113,18 @@ Result<PageServer> PageServer::listen(Site site, int port) {
 std::string PageServer::address() const { return std::string("http://") + kLoopback + ":" + std::to_string(state_->port) + "/"; }
 
 bool PageServer::serve_until(bool (*done)()) {
+  std::atomic<bool> served = true;
   std::atomic<bool> ended = false;
-  std::thread bell([&] {
-    while (!ended && !done()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(30));
-    }
-    state_->server.stop();
+  // The first thread waits, not the one that accepts: it is the one that signals reach.
+  std::thread listener([&] {
+    served = state_->server.listen_after_bind();
+    ended = true;
   });
-  const bool served = state_->server.listen_after_bind();
-  ended = true;
-  bell.join();
+  while (!ended) {
+    if (done()) state_->server.stop();  // In vain while the listener has not begun: so again and again.
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  }
+  listener.join();
   return served || done();
 }
 
