@@ -130,6 +130,10 @@ struct LayoutSummary {
 };
 LayoutSummary summarize(const Layout& layout);
 
+/// Friction between two bricks in contact: the geometric mean of their values (the value itself where they are alike). Every model that has
+/// friction looks it up here and nowhere else.
+double pair_friction(const Surface& one, const Surface& other);
+
 // ---- Geometry of one brick, as free functions ----
 
 /// Size of a brick as it is put down [m].

@@ -38,6 +38,11 @@ Vec3 up_axis(Stance stance) {
 
 }  // namespace
 
+double pair_friction(const Surface& one, const Surface& other) {
+  const double own = one.brick_friction;
+  return own == other.brick_friction ? own : std::sqrt(own * other.brick_friction);
+}
+
 Extents extents(const BrickKind& kind, Stance stance) {
   switch (stance) {
     case Stance::flat:

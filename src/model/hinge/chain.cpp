@@ -84,9 +84,7 @@ TrainBrick Chain::make_brick(BrickId id) const {
     const BrickKind& ahead = scene_->kind_of(link.next);
     brick.pitch = link.pitch / kind.height;
     brick.thickness_ahead = ahead.thickness / kind.height;
-    const double own = kind.surface.brick_friction;
-    const double other = ahead.surface.brick_friction;
-    brick.friction = own == other ? own : std::sqrt(own * other);
+    brick.friction = pair_friction(kind.surface, ahead.surface);
     brick.hit_angle = arc_sine(brick.pitch - brick.thickness_ahead);
   }
   return brick;

@@ -142,7 +142,7 @@ void Front::list_neighbours(int place) {
     touch.b = b;
     const Surface& mine = world_.layout.kinds[body.kind].surface;
     const Surface& its = world_.layout.kind_of(other).surface;
-    touch.friction = combined(mine.brick_friction, its.brick_friction);
+    touch.friction = pair_friction(mine, its);
     touch.restitution = combined(mine.brick_restitution, its.brick_restitution);
     touches_.push_back(touch);
   }
