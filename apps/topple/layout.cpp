@@ -20,11 +20,21 @@ std::string length_text(double length) {
   return length >= 1.0 ? formatted("%.4g m", length) : formatted("%.4g mm", length * 1000.0);
 }
 
+/// The first of a long list (a gradient gives every brick a colour of its own), and how much more there is.
 void print_counts(const char* what, const std::vector<LayoutSummary::Count>& counts) {
-  for (const LayoutSummary::Count& count : counts) {
-    std::printf("  %-12s %s: %s\n", what, count.name.c_str(), count_of(count.bricks, "brick").c_str());
-    what = "";
+  constexpr std::size_t kMost = 16;
+  const std::size_t shown = counts.size() > kMost ? kMost - 1 : counts.size();
+  for (std::size_t i = 0; i < shown; ++i) {
+    std::printf("  %-12s %s: %s\n", i == 0 ? what : "", counts[i].name.c_str(), count_of(counts[i].bricks, "brick").c_str());
   }
+  if (shown == counts.size()) {
+    return;
+  }
+  std::int64_t rest = 0;
+  for (std::size_t i = shown; i < counts.size(); ++i) {
+    rest += counts[i].bricks;
+  }
+  std::printf("  %-12s and %zu more %s: %s (--json lists them all)\n", "", counts.size() - shown, what, count_of(rest, "brick").c_str());
 }
 
 void print_summary(const Layout& layout, const LayoutSummary& summary) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "layout/text.h"
 #include "model/hinge/hinge_model.h"
 #include "model/pivot/pivot_model.h"
 #include "model/rigid/rigid_model.h"
@@ -25,7 +26,7 @@ class Settings {
     if (setting == nullptr) return;
     const auto* value = std::get_if<double>(&setting->value);
     if (value == nullptr) return wrong(*setting, "must be a number");
-    if (!(*value >= low && *value <= high)) return wrong(*setting, "must be from " + text(low) + " to " + text(high));
+    if (!(*value >= low && *value <= high)) return wrong(*setting, "must be from " + number_text(low) + " to " + number_text(high));
     out = *value * scale;
   }
 
@@ -68,15 +69,8 @@ class Settings {
     return found;
   }
 
-  static std::string text(double value) {
-    std::string digits = std::to_string(value);
-    while (digits.back() == '0') digits.pop_back();
-    if (digits.back() == '.') digits.pop_back();
-    return digits;
-  }
-
   static std::string text(const Setting& setting) {
-    if (const auto* number = std::get_if<double>(&setting.value)) return text(*number);
+    if (const auto* number = std::get_if<double>(&setting.value)) return number_text(*number);
     if (const auto* flag = std::get_if<bool>(&setting.value)) return *flag ? "true" : "false";
     return "\"" + std::get<std::string>(setting.value) + "\"";
   }
