@@ -29,7 +29,9 @@ struct Color {
   friend constexpr bool operator==(const Color&, const Color&) = default;
 };
 
-/// What many bricks share. The default is a real toppling domino.
+enum class Shape : std::uint8_t { box, ball };
+
+/// What many bricks share. The default is a real toppling domino. A ball is a brick too: height, width and thickness are its diameter.
 struct BrickKind {
   std::string name = "domino";
   double height = 0.048;      ///< [m]
@@ -38,6 +40,15 @@ struct BrickKind {
   double mass = 0.0085;       ///< [kg]
   Surface surface;
   Color color;
+  Shape shape = Shape::box;
+};
+
+/// What two kinds do to each other, whichever touches the other.
+struct SurfacePair {
+  std::uint16_t one = 0;  ///< Index into Layout::kinds.
+  std::uint16_t other = 0;
+  double friction = 0.0;     ///< Coulomb.
+  double restitution = 0.0;  ///< 0 to 1.
 };
 
 /// How a brick is put down. Whatever the stance, it falls the way it heads.
@@ -78,11 +89,12 @@ struct Push {
   std::variant<AngularSpeedPush, ForcePush, ImpulsePush> how;
 };
 
-/// A run of consecutive bricks that one entry of the layout file made, in the order in which they should fall.
+/// A run of consecutive bricks that one entry of the layout file made.
 struct Part {
   std::string name;  ///< As a person would say it: "row 1", "curve 2", "brick 3".
   BrickId first = 0;
   BrickId count = 0;
+  bool line = true;  ///< In the order in which they should fall; those of a wall, a tower or a pyramid have none.
 };
 
 /// One `key = value` of the file's [model] table (or of the command line), not yet understood: the run chapter does that.
@@ -96,6 +108,7 @@ struct Layout {
   std::string title;
   double gravity = 9.81;  ///< [m/s^2], downwards.
   std::vector<BrickKind> kinds;
+  std::vector<SurfacePair> pairs;  ///< Those that were given outright.
   std::vector<Color> colors;
   std::vector<Brick> bricks;
   std::vector<Part> parts;
@@ -109,7 +122,12 @@ struct Layout {
 
   BrickId brick_count() const { return static_cast<BrickId>(bricks.size()); }
   const BrickKind& kind_of(BrickId brick) const { return kinds[bricks[static_cast<std::size_t>(brick)].kind]; }
+  const Part* part_of(BrickId brick) const;  ///< Null where parts do not cover it.
 };
+
+/// Of two kinds in contact: as given outright, or the geometric mean of what each states for itself (the value
+/// itself where they are alike). Every model looks it up here and nowhere else.
+SurfacePair surface_pair(const Layout& layout, std::uint16_t one, std::uint16_t other);
 
 /// Reads a layout. `name` is used in messages; each of `overrides` is `key=value` with the key a dotted path in the file
 /// ("contact.brick_friction=0.3", "row.0.count=50"); a key without a dot is one of [model]. On failure the error lists every problem
@@ -123,16 +141,12 @@ struct LayoutSummary {
     std::int64_t bricks = 0;
   };
   std::int64_t bricks = 0;
-  double length = 0.0;  ///< Along all parts, foot to foot [m].
+  double length = 0.0;  ///< Along all lines, foot to foot [m].
   Vec3 low, high;       ///< Bounding box of all bricks [m].
   std::vector<Count> kinds;
   std::vector<Count> colors;  ///< Named "#rrggbb".
 };
 LayoutSummary summarize(const Layout& layout);
-
-/// Friction between two bricks in contact: the geometric mean of their values (the value itself where they are alike). Every model that has
-/// friction looks it up here and nowhere else.
-double pair_friction(const Surface& one, const Surface& other);
 
 // ---- Geometry of one brick, as free functions ----
 
@@ -159,10 +173,11 @@ Vec3 half_extents(const BrickKind& kind);
 /// How far a brick has turned away from the vertical axis of its stance, 0 = as put down [rad].
 double tilt(const Layout& layout, BrickId brick, const Quat& orientation);
 
-/// An oriented box.
+/// An oriented box, or a ball.
 struct Box {
   Pose pose;
-  Vec3 half;  ///< Half extents along its own axes [m].
+  Vec3 half;  ///< Half extents along its own axes; a ball's radius [m].
+  Shape shape = Shape::box;
 };
 /// Signed distance of two boxes by the separating axis theorem [m]: > 0 is a lower bound of the gap between them,
 /// < 0 is minus the least translation that parts them.

@@ -1,4 +1,5 @@
 // One brick as it stands and as it turns about its toe or heel, in closed form.
+#include <algorithm>
 #include <cmath>
 
 #include "base/trigonometry.h"
@@ -38,9 +39,11 @@ Vec3 up_axis(Stance stance) {
 
 }  // namespace
 
-double pair_friction(const Surface& one, const Surface& other) {
-  const double own = one.brick_friction;
-  return own == other.brick_friction ? own : std::sqrt(own * other.brick_friction);
+const Part* Layout::part_of(BrickId brick) const {
+  const auto after = std::upper_bound(parts.begin(), parts.end(), brick, [](BrickId id, const Part& part) { return id < part.first; });
+  if (after == parts.begin()) return nullptr;
+  const Part& part = *(after - 1);
+  return brick < part.first + part.count ? &part : nullptr;
 }
 
 Extents extents(const BrickKind& kind, Stance stance) {

@@ -8,32 +8,12 @@
 namespace topple {
 namespace {
 
-constexpr Range kSize{0.1, 20000.0};           // [mm]
-constexpr Range kMass{0.0, 1e9, true};         // [g]
-constexpr Range kDensity{0.0, 30000.0, true};  // [kg/m^3]
-constexpr Range kFriction{0.0, 10.0};
-constexpr Range kRestitution{0.0, 1.0};
-constexpr std::int64_t kMaxKinds = 1000;
-
-Surface read_surface(Section& section, const Surface& otherwise) {
-  return {.brick_friction = section.number("brick_friction", kFriction).value_or(otherwise.brick_friction),
-          .floor_friction = section.number("floor_friction", kFriction).value_or(otherwise.floor_friction),
-          .brick_restitution = section.number("brick_restitution", kRestitution).value_or(otherwise.brick_restitution),
-          .floor_restitution = section.number("floor_restitution", kRestitution).value_or(otherwise.floor_restitution)};
-}
-
-/// [kg]; without mass and density, as dense as the default brick: 983.8 kg/m^3.
-double read_mass(Section& section, const BrickKind& kind) {
+/// Without mass and density a kind is as dense as the default brick: 983.8 kg/m^3 [kg].
+double default_mass(const BrickKind& kind) {
   const BrickKind usual;
   const double density = usual.mass / (usual.height * usual.width * usual.thickness);
-  const double volume = kind.height * kind.width * kind.thickness;
-  const auto grams = section.number("mass_g", kMass);
-  const auto stated = section.number("density_kg_m3", kDensity);
-  if (section.has("mass_g") && section.has("density_kg_m3")) section.missing("mass_g and density_kg_m3 are both there; at most one may be");
   const bool default_size = kind.height == usual.height && kind.width == usual.width && kind.thickness == usual.thickness;
-  if (grams) return *grams / 1000.0;
-  if (stated) return *stated * volume;
-  return default_size ? usual.mass : density * volume;
+  return default_size ? usual.mass : density * (kind.height * kind.width * kind.thickness);
 }
 
 BrickKind read_kind(Section& section, const Surface& surface, bool first) {
@@ -55,13 +35,28 @@ BrickKind read_kind(Section& section, const Surface& surface, bool first) {
     section.missing("its longest side must be at most 1,000 times its shortest, is " + count_text(static_cast<long long>(most / least)) +
                     " times");
   }
-  kind.mass = read_mass(section, kind);
+  kind.mass = read_mass(section, kind.height * kind.width * kind.thickness, default_mass(kind));
   kind.surface = read_surface(section, surface);
   kind.color = section.color("color").value_or(kind.color);
   return kind;
 }
 
 }  // namespace
+
+Surface read_surface(Section& section, const Surface& otherwise) {
+  return {.brick_friction = section.number("brick_friction", kFriction).value_or(otherwise.brick_friction),
+          .floor_friction = section.number("floor_friction", kFriction).value_or(otherwise.floor_friction),
+          .brick_restitution = section.number("brick_restitution", kRestitution).value_or(otherwise.brick_restitution),
+          .floor_restitution = section.number("floor_restitution", kRestitution).value_or(otherwise.floor_restitution)};
+}
+
+double read_mass(Section& section, double volume, double otherwise) {
+  const auto grams = section.number("mass_g", kMass);
+  const auto density = section.number("density_kg_m3", kDensity);
+  if (section.has("mass_g") && section.has("density_kg_m3")) section.missing("mass_g and density_kg_m3 are both there; at most one may be");
+  if (grams) return *grams / 1000.0;
+  return density ? *density * volume : otherwise;
+}
 
 std::optional<Section> section_of(const Section& top, std::string_view key, std::span<const std::string_view> known, Problems& problems) {
   const Node* node = top.find(key);
@@ -103,8 +98,8 @@ std::vector<BrickKind> read_kinds(const Section& top, const Surface& surface, Pr
   std::vector<BrickKind> kinds;
   std::vector<std::string_view> names;
   for (Section& section : sections_of(top, "kind", keys::kKind, problems)) {
-    if (static_cast<std::int64_t>(kinds.size()) == kMaxKinds) {
-      section.missing("one kind more than the " + count_text(kMaxKinds) + " that a layout may have");
+    if (kinds.size() == kMaxKinds) {
+      section.missing("one kind more than the " + count_text(static_cast<long long>(kMaxKinds)) + " that a layout may have");
       break;
     }
     kinds.push_back(read_kind(section, surface, kinds.empty()));

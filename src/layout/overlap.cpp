@@ -165,8 +165,9 @@ class OverlapSearch {
     const Brick &a = brick(first), &b = brick(second);
     const Form &fa = form(a), &fb = form(b);
     if (clearly_apart(a, fa, b, fb)) return;
-    const double depth = -separation({standing_pose(layout_, first), half_extents(layout_.kind_of(first))},
-                                     {standing_pose(layout_, second), half_extents(layout_.kind_of(second))});
+    const BrickKind &ka = layout_.kind_of(first), &kb = layout_.kind_of(second);
+    const double depth = -separation({standing_pose(layout_, first), half_extents(ka), ka.shape},
+                                     {standing_pose(layout_, second), half_extents(kb), kb.shape});
     if (depth > kTolerance * std::fmin(fa.thickness, fb.thickness))
       found_.push_back({std::min(first, second), std::max(first, second), depth});
   }
@@ -190,17 +191,14 @@ std::vector<OverlappingPair> find_overlaps(const Layout& layout, std::size_t mos
 void report_overlaps(const Layout& layout, const std::vector<PartPlan>& plans, Problems& problems) {
   constexpr std::size_t kMost = 1000;
   const std::vector<OverlappingPair> overlaps = find_overlaps(layout, kMost);
-  const auto part_of = [&](BrickId brick) {
-    const auto after =
-        std::upper_bound(layout.parts.begin(), layout.parts.end(), brick, [](BrickId id, const Part& part) { return id < part.first; });
-    return static_cast<std::size_t>(after - layout.parts.begin()) - 1;
-  };
+  const std::vector<BrickId> firsts = first_bricks(plans);
   for (const OverlappingPair& overlap : overlaps) {
-    const std::size_t one = part_of(overlap.first), other = part_of(overlap.second);
-    problems.add(plans[other].place, plans[other].path,
-                 "brick " + std::to_string(overlap.first) + " (" + plans[one].name + ") and brick " + std::to_string(overlap.second) +
-                     " (" + plans[other].name + ") overlap by " + number_text(std::round(overlap.depth * 1e6) / 1e3) +
-                     " mm; bricks may touch, not overlap");
+    const auto after = std::upper_bound(firsts.begin(), firsts.end(), overlap.second);
+    const PartPlan& plan = plans[static_cast<std::size_t>(after - firsts.begin()) - 1];
+    problems.add(plan.place, plan.path,
+                 "brick " + std::to_string(overlap.first) + " (" + layout.part_of(overlap.first)->name + ") and brick " +
+                     std::to_string(overlap.second) + " (" + layout.part_of(overlap.second)->name + ") overlap by " +
+                     number_text(std::round(overlap.depth * 1e6) / 1e3) + " mm; bricks may touch, not overlap");
   }
   if (overlaps.size() == kMost) problems.stop_counting();
 }

@@ -4,40 +4,28 @@
 #include <cmath>
 
 #include "base/trigonometry.h"
+#include "layout/style.h"
+#include "layout/surfaces.h"
 #include "layout/text.h"
 
 namespace topple {
 namespace {
 
-constexpr Range kHeading{-3600.0, 3600.0};   // [deg]
-constexpr Range kGap{0.0, 20000.0};          // [mm]
-constexpr Range kPitch{0.0, 40000.0, true};  // [mm]
-constexpr Range kLength{0.0, 1e8};           // [mm]
-constexpr double kSnap = 1e-9;               // of a pitch: 100 pitches are 100 pitches, whatever the last digit says
+constexpr double kSnap = 1e-9;  // of a pitch: 100 pitches are 100 pitches, whatever the last digit says
 
-/// Kind, pose and colours, which rows, curves and bricks share.
-PartPlan read_style(Section& section, std::span<const BrickKind> kinds) {
+}  // namespace
+
+PartPlan read_style(Section& section, std::span<const BrickKind> kinds, Stance usual) {
   PartPlan plan;
   plan.place = section.place();
   plan.path = section.path();
-  if (const auto name = section.text("kind", 1000)) {
-    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const BrickKind& kind) { return kind.name == *name; });
-    if (found != kinds.end()) {
-      plan.kind = static_cast<std::uint16_t>(found - kinds.begin());
-    } else {
-      std::vector<std::string_view> names;
-      for (const BrickKind& kind : kinds) names.push_back(kind.name);
-      section.problem("kind",
-                      "there is no kind \"" + printable(*name) + "\"; the nearest is \"" + printable(nearest_key(*name, names)) + "\"");
-    }
-  }
-  plan.stance = section.stance("pose").value_or(Stance::standing);
+  if (const auto name = section.text("kind", 1000)) plan.kind = find_kind(section, "kind", *name, kinds).value_or(0);
+  plan.stance = section.stance("pose").value_or(usual);
   plan.color = section.color("color").value_or(kinds[plan.kind].color);
   plan.color_to = section.color("color_to").value_or(plan.color);
   return plan;
 }
 
-/// Foot to foot, from exactly one of pitch_mm and gap_mm [m]; empty after a problem.
 std::optional<double> read_pitch(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds) {
   const double along = extents(kinds[plan.kind], plan.stance).along;
   const auto pitch = section.number("pitch_mm", kPitch);
@@ -57,7 +45,6 @@ std::optional<double> read_pitch(Section& section, const PartPlan& plan, std::sp
   return *pitch / 1000.0;
 }
 
-/// Bricks on a length when one stands at its start. Empty after a problem.
 std::optional<std::int64_t> count_along(Section& section, std::string_view key, double length, double pitch) {
   const double pitches = std::floor(length / pitch + kSnap);
   if (pitches < static_cast<double>(kMaxBricks)) return static_cast<std::int64_t>(pitches) + 1;
@@ -66,14 +53,8 @@ std::optional<std::int64_t> count_along(Section& section, std::string_view key, 
   return std::nullopt;
 }
 
-struct Placed {
-  Vec3 foot;
-  double heading = 0.0;  // [rad]
-};
-
 double radians(double degrees) { return degrees / 180.0 * kPi; }
 
-/// A unit vector; quarter turns are exact, so that a row along y has all its x in one place.
 Vec3 direction_of(double degrees) {
   const double turn = std::fmod(degrees, 360.0);  // exact
   if (turn == 0.0) return {1.0, 0.0, 0.0};
@@ -83,6 +64,22 @@ Vec3 direction_of(double degrees) {
   const SinCos angle = sin_cos(radians(turn));
   return {angle.cos, angle.sin, 0.0};
 }
+
+std::optional<Line> read_line(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds) {
+  const auto count = section.whole("count", 1, kMaxBricks);
+  const auto length = section.number("length_mm", kLength);
+  if (section.has("count") == section.has("length_mm")) {
+    section.missing(section.has("count") ? "count and length_mm are both there; exactly one must be"
+                                         : "exactly one of count and length_mm must be there");
+  }
+  const auto pitch = read_pitch(section, plan, kinds);
+  if (!section.good() || !pitch) return std::nullopt;
+  const auto counted = count ? count : count_along(section, "length_mm", *length / 1000.0, *pitch);
+  if (!counted) return std::nullopt;
+  return Line{*pitch, *counted};
+}
+
+namespace {
 
 constexpr std::size_t kShades = 256;
 
@@ -101,43 +98,46 @@ std::vector<std::uint16_t> shades_of(const PartPlan& plan, Palette& palette) {
   return numbers;
 }
 
-/// Brick i of a part.
-Placed place_of(PartPlan& plan, std::int64_t i) {
-  if (const auto* row = std::get_if<RowPlan>(&plan.shape)) {
-    return {row->from + (static_cast<double>(i) * row->pitch) * direction_of(row->heading_deg), radians(row->heading_deg)};
-  }
-  if (auto* curve = std::get_if<CurvePlan>(&plan.shape)) {
-    const Spline::At at = curve->spline.at(std::min(static_cast<double>(i) * curve->pitch, curve->spline.length()));
-    return {at.point, arc_tangent(at.tangent.y, at.tangent.x)};
-  }
-  const auto& brick = std::get<BrickPlan>(plan.shape);
-  return {brick.at, radians(brick.heading_deg)};
+/// One overload a shape.
+void put(const PartPlan& plan, const RowPlan& row, BrickLayer& layer) {
+  const Vec3 direction = direction_of(row.heading_deg);
+  for (std::int64_t i = 0; i < plan.count; ++i)
+    layer.put(row.from + (static_cast<double>(i) * row.pitch) * direction, radians(row.heading_deg));
+  layer.close_part(plan.name, true);
 }
+void put(const PartPlan& plan, CurvePlan& curve, BrickLayer& layer) {
+  for (std::int64_t i = 0; i < plan.count; ++i) {
+    const Spline::At at = curve.spline.at(std::min(static_cast<double>(i) * curve.pitch, curve.spline.length()));
+    layer.put(at.point, arc_tangent(at.tangent.y, at.tangent.x));
+  }
+  layer.close_part(plan.name, true);
+}
+void put(const PartPlan& plan, const BrickPlan& brick, BrickLayer& layer) {
+  layer.put(brick.at, radians(brick.heading_deg));
+  layer.close_part(plan.name, true);
+}
+void put(const PartPlan& plan, const WallPlan& wall, BrickLayer& layer) { put_wall(plan, wall, layer); }
+void put(const PartPlan& plan, const TowerPlan& tower, BrickLayer& layer) { put_tower(plan, tower, layer); }
+void put(const PartPlan& plan, const PyramidPlan& pyramid, BrickLayer& layer) { put_pyramid(plan, pyramid, layer); }
+void put(const PartPlan& plan, const FieldPlan& field, BrickLayer& layer) { put_field(plan, field, layer); }
+void put(const PartPlan& plan, const BallPlan& ball, BrickLayer& layer) { put_ball(plan, ball, layer); }
 
 }  // namespace
 
-std::optional<PartPlan> read_row(Section& section, std::span<const BrickKind> kinds) {
+std::optional<PartPlan> read_row(Section& section, std::vector<BrickKind>& kinds) {
   PartPlan plan = read_style(section, kinds);
   RowPlan row;
   row.from = section.point("from_mm", 3).value_or(Vec3{});
   row.heading_deg = section.number("heading_deg", kHeading).value_or(0.0);
-  const auto count = section.whole("count", 1, kMaxBricks);
-  const auto length = section.number("length_mm", kLength);
-  if (section.has("count") == section.has("length_mm")) {
-    section.missing(section.has("count") ? "count and length_mm are both there; exactly one must be"
-                                         : "exactly one of count and length_mm must be there");
-  }
-  const auto pitch = read_pitch(section, plan, kinds);
-  if (!section.good() || !pitch) return std::nullopt;
-  row.pitch = *pitch;
-  const auto counted = count ? count : count_along(section, "length_mm", *length / 1000.0, row.pitch);
-  if (!counted) return std::nullopt;
-  plan.count = *counted;
+  const auto line = read_line(section, plan, kinds);
+  if (!line) return std::nullopt;
+  row.pitch = line->pitch;
+  plan.count = line->count;
   plan.shape = row;
   return plan;
 }
 
-std::optional<PartPlan> read_curve(Section& section, std::span<const BrickKind> kinds) {
+std::optional<PartPlan> read_curve(Section& section, std::vector<BrickKind>& kinds) {
   PartPlan plan = read_style(section, kinds);
   const auto points = section.points("points_mm");
   if (!section.has("points_mm")) section.missing("points_mm must be there: the points [x, y] that the curve passes through");
@@ -161,7 +161,7 @@ std::optional<PartPlan> read_curve(Section& section, std::span<const BrickKind> 
   return plan;
 }
 
-std::optional<PartPlan> read_brick(Section& section, std::span<const BrickKind> kinds) {
+std::optional<PartPlan> read_brick(Section& section, std::vector<BrickKind>& kinds) {
   PartPlan plan = read_style(section, kinds);
   const auto at = section.point("at_mm", 3);
   if (!section.has("at_mm")) section.missing("at_mm must be there: where the brick stands, [x, y] or [x, y, height of its foot]");
@@ -170,6 +170,17 @@ std::optional<PartPlan> read_brick(Section& section, std::span<const BrickKind> 
   plan.count = 1;
   plan.shape = BrickPlan{*at, heading};
   return plan;
+}
+
+std::vector<BrickId> first_bricks(const std::vector<PartPlan>& plans) {
+  std::vector<BrickId> firsts;
+  firsts.reserve(plans.size());
+  std::int64_t first = 0;
+  for (const PartPlan& plan : plans) {
+    firsts.push_back(static_cast<BrickId>(first));
+    first += plan.count;
+  }
+  return firsts;
 }
 
 std::optional<std::uint16_t> Palette::number(const Color& color) {
@@ -184,18 +195,24 @@ std::optional<std::uint16_t> Palette::number(const Color& color) {
   return number;
 }
 
+void BrickLayer::put(const Vec3& foot, double heading, std::uint16_t kind) {
+  // Equal shares of the part for every shade, the first and the last brick in the colours asked for.
+  const auto count = static_cast<std::size_t>(plan_.count);
+  const std::uint16_t color = shades_[count > shades_.size() ? next_ * shades_.size() / count : next_ % shades_.size()];
+  ++next_;
+  layout_.bricks.push_back({foot, heading, kind, color, plan_.stance});
+}
+
+void BrickLayer::close_part(const std::string& name, bool line) {
+  layout_.parts.push_back({name, first_, layout_.brick_count() - first_, line});
+  first_ = layout_.brick_count();
+}
+
 bool put_down(PartPlan& plan, Palette& palette, Layout& layout) {
-  const std::vector<std::uint16_t> shades = shades_of(plan, palette);
+  std::vector<std::uint16_t> shades = shades_of(plan, palette);
   if (shades.empty()) return false;
-  const BrickId first = layout.brick_count();
-  const auto count = static_cast<std::size_t>(plan.count);
-  for (std::size_t i = 0; i < count; ++i) {
-    // Equal shares of the part for every shade, the first and the last brick in the colours asked for.
-    const std::uint16_t color = shades[count > shades.size() ? i * shades.size() / count : i % shades.size()];
-    const Placed placed = place_of(plan, static_cast<std::int64_t>(i));
-    layout.bricks.push_back({placed.foot, placed.heading, plan.kind, color, plan.stance});
-  }
-  layout.parts.push_back({plan.name, first, static_cast<BrickId>(plan.count)});
+  BrickLayer layer(plan, std::move(shades), layout);
+  std::visit([&](auto& shape) { put(plan, shape, layer); }, plan.shape);
   return true;
 }
 

@@ -32,6 +32,53 @@ struct BrickPlan {
   Vec3 at;  ///< [m]
   double heading_deg = 0.0;
 };
+/// Courses in running bond, one on the other.
+struct WallPlan {
+  enum class Ends : std::uint8_t { half, toothed, stepped };
+  Vec3 at;  ///< Middle of its foot [m].
+  double heading_deg = 0.0;
+  std::int64_t count = 0;  ///< Bricks of the lowest course.
+  std::int64_t courses = 0;
+  double pitch = 0.0;  ///< Along a course [m].
+  double gap = 0.0;    ///< [m]
+  Ends ends = Ends::half;
+  std::uint16_t half_kind = 0;  ///< Of the bricks that close every second course.
+};
+/// Layers of bricks side by side, each across the one below.
+struct TowerPlan {
+  Vec3 at;  ///< Middle of its foot [m].
+  double heading_deg = 0.0;
+  std::int64_t layers = 0;
+  std::int64_t count = 0;  ///< Bricks of a layer.
+};
+/// Layers of a rectangle of bricks, each on the middles of four below.
+struct PyramidPlan {
+  Vec3 at;  ///< Middle of its foot [m].
+  double heading_deg = 0.0;
+  std::int64_t along = 0, across = 0;  ///< Bricks of the lowest layer.
+  std::int64_t layers = 0;
+  double gap = 0.0;  ///< [m]
+};
+/// Rows side by side.
+struct FieldPlan {
+  enum class Starter : std::uint8_t { none, line, pushes };
+  Vec3 from;  ///< [m]
+  double heading_deg = 0.0;
+  std::int64_t rows = 0;
+  std::int64_t count = 0;  ///< Bricks of a row, its turn from the line not counted.
+  double pitch = 0.0;      ///< [m]
+  double row_pitch = 0.0;  ///< [m]
+  Starter starter = Starter::none;
+  double angular_speed = 0.0;  ///< Of each row's first brick [rad/s].
+  std::int64_t steps = 0;      ///< Bricks of the line from row to row.
+  std::int64_t turn = 0;       ///< Bricks of each row that turn off the line.
+};
+struct BallPlan {
+  Vec3 at;  ///< Its lowest point [m].
+  double heading_deg = 0.0;
+  double speed = 0.0;  ///< [m/s]
+  double start = 0.0;  ///< [s]
+};
 
 /// One entry of the file that makes bricks, understood and counted.
 struct PartPlan {
@@ -42,13 +89,21 @@ struct PartPlan {
   Stance stance = Stance::standing;
   Color color, color_to;  ///< Of the first brick and of the last.
   std::int64_t count = 0;
-  std::variant<RowPlan, CurvePlan, BrickPlan> shape;
+  std::variant<RowPlan, CurvePlan, BrickPlan, WallPlan, TowerPlan, PyramidPlan, FieldPlan, BallPlan> shape;
 };
 
-/// Each is empty after a problem.
-std::optional<PartPlan> read_row(Section& section, std::span<const BrickKind> kinds);
-std::optional<PartPlan> read_curve(Section& section, std::span<const BrickKind> kinds);
-std::optional<PartPlan> read_brick(Section& section, std::span<const BrickKind> kinds);
+// Each is empty after a problem. A wall that needs halves of its bricks, and a ball, add kinds of their own.
+std::optional<PartPlan> read_row(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_curve(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_brick(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_field(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_wall(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_tower(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_pyramid(Section& section, std::vector<BrickKind>& kinds);
+std::optional<PartPlan> read_ball(Section& section, std::vector<BrickKind>& kinds, const Surface& surface);
+
+/// The number of the first brick of each plan.
+std::vector<BrickId> first_bricks(const std::vector<PartPlan>& plans);
 
 /// Gives each distinct colour of a layout one number.
 class Palette {
@@ -62,7 +117,7 @@ class Palette {
   std::map<std::uint32_t, std::uint16_t> numbers_;
 };
 
-/// Appends the bricks of a part and their colours. False: more colours than a layout may have.
+/// Appends the bricks of a part, their colours, and the pushes that it brings. False: more colours than a layout may have.
 bool put_down(PartPlan& plan, Palette& palette, Layout& layout);
 
 }  // namespace topple

@@ -68,6 +68,11 @@ std::vector<Push> place_pushes(const std::vector<PushPlan>& plans, const Layout&
                    "there is no brick " + std::to_string(push.brick) + "; the bricks are 0 to " + std::to_string(layout.brick_count() - 1));
       continue;
     }
+    if (std::holds_alternative<AngularSpeedPush>(push.how) && layout.kind_of(push.brick).shape == Shape::ball) {
+      problems.add(plan.brick_place, plan.path + ".brick",
+                   "brick " + std::to_string(push.brick) + " is a ball and has no toe to turn about; push it with force_n or impulse_n_s");
+      continue;
+    }
     const double up = extents(layout.kind_of(push.brick), layout.bricks[static_cast<std::size_t>(push.brick)].stance).up;
     constexpr double kLastDigits = 1e-12;
     if (height_of(push) > up * (1.0 + kLastDigits)) {

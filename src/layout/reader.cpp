@@ -10,6 +10,8 @@
 #include "layout/overrides.h"
 #include "layout/parts.h"
 #include "layout/pushes.h"
+#include "layout/supports.h"
+#include "layout/surfaces.h"
 #include "layout/text.h"
 
 namespace topple {
@@ -40,14 +42,16 @@ class Reader {
     read_top(top);
     const Surface surface = read_contact(top, problems_);
     layout_.kinds = read_kinds(top, surface, problems_);
-    read_parts(top);
+    read_parts(top, surface);
+    layout_.pairs = read_pairs(top, layout_, problems_);
     std::vector<PushPlan> pushes = read_pushes(top, problems_);
     read_noise(top);
     read_model(top);
     root = {};
     if (parts_good_) {
       put_all_down();
-      layout_.pushes = place_pushes(pushes, layout_, problems_);
+      std::vector<Push> placed = place_pushes(pushes, layout_, problems_);
+      layout_.pushes.insert(layout_.pushes.begin(), placed.begin(), placed.end());
     }
     if (problems_.count() > 0) return std::unexpected(problems_.error());
     return std::move(layout_);
@@ -59,19 +63,24 @@ class Reader {
     layout_.gravity = top.number("gravity_m_s2", kGravity).value_or(layout_.gravity);
   }
 
-  void read_parts(const Section& top) {
+  void read_parts(const Section& top, const Surface& surface) {
     std::vector<std::optional<PartPlan>> plans;
     const std::size_t before = problems_.count();
     const auto read_all = [&](std::string_view key, std::span<const std::string_view> known, auto read_one) {
       int number = 0;
       for (Section& section : sections_of(top, key, known, problems_)) {
-        plans.push_back(read_one(section, std::span<const BrickKind>(layout_.kinds)));
+        plans.push_back(read_one(section, layout_.kinds));
         if (plans.back()) plans.back()->name = std::string(key) + " " + std::to_string(++number);
       }
     };
     read_all("row", keys::kRow, read_row);
     read_all("curve", keys::kCurve, read_curve);
     read_all("brick", keys::kBrick, read_brick);
+    read_all("field", keys::kField, read_field);
+    read_all("wall", keys::kWall, read_wall);
+    read_all("tower", keys::kTower, read_tower);
+    read_all("pyramid", keys::kPyramid, read_pyramid);
+    read_all("ball", keys::kBall, [&](Section& section, std::vector<BrickKind>& kinds) { return read_ball(section, kinds, surface); });
     parts_good_ = std::all_of(plans.begin(), plans.end(), [](const auto& plan) { return plan.has_value(); });
     if (plans.empty() && problems_.count() == before) {
       problems_.add({1, 1, -1}, "", "the layout is empty; it needs at least one [[row]], [[curve]] or [[brick]]");
@@ -136,7 +145,9 @@ class Reader {
       return;
     }
     add_noise();
+    const std::size_t before = problems_.count();
     report_overlaps(layout_, plans_, problems_);
+    if (problems_.count() == before) report_unsupported(layout_, plans_, problems_);
   }
 
   /// Three deviates a brick in the order of BrickId, whichever of them are used.

@@ -1,6 +1,7 @@
 #include "layout/section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "layout/text.h"
@@ -130,16 +131,22 @@ std::optional<Color> Section::color(std::string_view key) {
   return std::nullopt;
 }
 
-std::optional<Stance> Section::stance(std::string_view key) {
+std::optional<std::size_t> Section::word(std::string_view key, std::span<const std::string_view> words) {
   const Node* node = find(key);
   if (!node) return std::nullopt;
-  if (const auto* text = std::get_if<std::string>(&node->value)) {
-    if (*text == "standing") return Stance::standing;
-    if (*text == "flat") return Stance::flat;
-    if (*text == "on_side") return Stance::on_side;
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (const auto* text = std::get_if<std::string>(&node->value); text && *text == words[i]) return i;
+    list += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + ('"' + std::string(words[i]) + '"');
   }
-  problem(key, must_be("\"standing\", \"flat\" or \"on_side\"", *node));
+  problem(key, must_be(list, *node));
   return std::nullopt;
+}
+
+std::optional<Stance> Section::stance(std::string_view key) {
+  constexpr std::array<std::string_view, 3> kStances{"standing", "flat", "on_side"};
+  const auto which = word(key, kStances);
+  return which ? std::optional(static_cast<Stance>(*which)) : std::nullopt;
 }
 
 std::optional<Vec3> Section::point_of(const Node& node, const std::string& path, std::size_t most_numbers) {

@@ -41,6 +41,8 @@ class Section {
   std::optional<double> number(std::string_view key, const Range& range);
   std::optional<std::int64_t> whole(std::string_view key, std::int64_t low, std::int64_t high);
   std::optional<std::string> text(std::string_view key, std::size_t most);
+  /// One of a few words; its place among them.
+  std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words);
   std::optional<Color> color(std::string_view key);
   std::optional<Vec3> point(std::string_view key, std::size_t most_numbers);
   std::optional<Stance> stance(std::string_view key);

@@ -54,9 +54,21 @@ double edge_gap(const Matrix& r, const Triple& t, const Triple& ha, const Triple
   return gap > best ? gap : best;
 }
 
+/// The gap between a ball and a box: outside along the line to the nearest point, inside along the nearest face's normal.
+double ball_gap(const Box& ball, const Box& box) {
+  const Vec3 middle = rotate(conjugate(box.pose.orientation), ball.pose.position - box.pose.position);
+  const Vec3 beyond{std::abs(middle.x) - box.half.x, std::abs(middle.y) - box.half.y, std::abs(middle.z) - box.half.z};
+  const double inside = std::fmax(beyond.x, std::fmax(beyond.y, beyond.z));
+  if (inside <= 0.0) return inside - ball.half.x;
+  return norm({std::fmax(beyond.x, 0.0), std::fmax(beyond.y, 0.0), std::fmax(beyond.z, 0.0)}) - ball.half.x;
+}
+
 }  // namespace
 
 double separation(const Box& a, const Box& b) {
+  if (a.shape == Shape::ball && b.shape == Shape::ball) return norm(b.pose.position - a.pose.position) - a.half.x - b.half.x;
+  if (a.shape == Shape::ball) return ball_gap(a, b);
+  if (b.shape == Shape::ball) return ball_gap(b, a);
   // Everything in the axes of `a`: places far from the origin cost no digits beyond those of their difference.
   const Quat to_a = conjugate(a.pose.orientation);
   const Matrix r = matrix_of(to_a * b.pose.orientation);

@@ -41,6 +41,7 @@ LayoutSummary summarize(const Layout& layout) {
     ++colors[brick.color];
   }
   for (const Part& part : layout.parts) {
+    if (!part.line) continue;
     for (BrickId i = part.first + 1; i < part.first + part.count; ++i) {
       const auto n = static_cast<std::size_t>(i);
       summary.length += norm(layout.bricks[n].foot - layout.bricks[n - 1].foot);

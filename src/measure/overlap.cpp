@@ -34,7 +34,7 @@ std::vector<Placed> place_all(const Recording& recording, double time) {
     const Pose pose = recording.at(brick, time).pose;
     const Pose put = standing_pose(layout, brick);
     const bool moved = !(pose.position == put.position && pose.orientation == put.orientation);
-    placed.push_back({{pose, half_extents(kind)}, kind.thickness, moved});
+    placed.push_back({{pose, half_extents(kind), kind.shape}, kind.thickness, moved});
   }
   return placed;
 }

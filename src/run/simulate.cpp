@@ -17,6 +17,8 @@ std::string brick_words(BrickId brick) { return "brick " + std::to_string(brick)
 
 bool fell(const Recording& recording, BrickId brick) {
   const Layout& layout = recording.layout();
+  // What a ball or a structure does is no wave that could die.
+  if (const Part* part = layout.part_of(brick); part != nullptr && !part->line) return true;
   const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
   const double turned = tilt(layout, brick, recording.at(brick, std::numeric_limits<double>::infinity()).pose.orientation);
   return turned > tip_angle(extents(layout.kinds[put.kind], put.stance));

@@ -72,7 +72,7 @@ TEST_CASE("deep nesting is refused before anything recurses") {
 }
 
 TEST_CASE("control characters do not reach the terminal") {
-  CHECK(wrong("\"a\\nb\" = 3\n[[row]]\ncount = 3\npitch_mm = 24\n") == "t.toml:1:1: a\\nb: unknown key; the nearest known one is row");
+  CHECK(wrong("\"a\\nb\" = 3\n[[row]]\ncount = 3\npitch_mm = 24\n") == "t.toml:1:1: a\\nb: unknown key; the nearest known one is pair");
   CHECK(wrong("\"\\u001b[31m\" = 3\n[[row]]\ncount = 3\npitch_mm = 24\n") ==
         "t.toml:1:1: \\x1b[31m: unknown key; the nearest known one is title");
   CHECK(wrong("[[row]]\nkind = \"\\u001b[31m\\n\\u0085\"\ncount = 1\ngap_mm = 1\n") ==

@@ -15,7 +15,7 @@ std::string wrong(std::string_view text) {
 }  // namespace
 
 TEST_CASE("an unknown key is named with the nearest known one") {
-  CHECK(wrong("colour = 1\n[[row]]\ncount = 3\npitch_mm = 24\n") == "t.toml:1:1: colour: unknown key; the nearest known one is contact");
+  CHECK(wrong("colour = 1\n[[row]]\ncount = 3\npitch_mm = 24\n") == "t.toml:1:1: colour: unknown key; the nearest known one is tower");
   CHECK(wrong("[[row]]\ncuont = 3\ncount = 3\npitch_mm = 24\n") == "t.toml:2:1: row.0.cuont: unknown key; the nearest known one is count");
   CHECK(wrong("[rows]\n") ==
         "t.toml:1:1: the layout is empty; it needs at least one [[row]], [[curve]] or [[brick]]\n"

@@ -33,8 +33,10 @@ std::string chapter(const std::string& document, const std::string& heading) {
 TEST_CASE("docs/layout.md has every key of every table") {
   const std::string document = text_of(TOPPLE_SOURCE_DIR "/docs/layout.md");
   const std::map<std::string, std::span<const std::string_view>> tables{
-      {"Top level", keys::kTop}, {"`[contact]`", keys::kContact}, {"`[[kind]]`", keys::kKind},   {"`[[push]]`", keys::kPush},
-      {"`[[row]]`", keys::kRow}, {"`[[curve]]`", keys::kCurve},   {"`[[brick]]`", keys::kBrick}, {"`[noise]`", keys::kNoise},
+      {"Top level", keys::kTop},         {"`[contact]`", keys::kContact}, {"`[[kind]]`", keys::kKind},   {"`[[push]]`", keys::kPush},
+      {"`[[row]]`", keys::kRow},         {"`[[curve]]`", keys::kCurve},   {"`[[brick]]`", keys::kBrick}, {"`[noise]`", keys::kNoise},
+      {"`[[pair]]`", keys::kPair},       {"`[[field]]`", keys::kField},   {"`[[wall]]`", keys::kWall},   {"`[[tower]]`", keys::kTower},
+      {"`[[pyramid]]`", keys::kPyramid}, {"`[[ball]]`", keys::kBall},
   };
   for (const auto& [heading, known] : tables) {
     const std::string text = chapter(document, heading);

@@ -34,13 +34,6 @@ void check_near(const Vec3& a, const Vec3& b) { CHECK(norm(a - b) < 1e-15); }
 
 }  // namespace
 
-TEST_CASE("two_surfaces_that_are_alike_keep_their_friction_and_others_have_the_geometric_mean") {
-  CHECK(pair_friction({.brick_friction = 0.3}, {.brick_friction = 0.3}) == 0.3);
-  CHECK(pair_friction({.brick_friction = 0.1}, {.brick_friction = 0.4}) == doctest::Approx(0.2));
-  CHECK(pair_friction({.brick_friction = 0.4}, {.brick_friction = 0.1}) == doctest::Approx(0.2));
-  CHECK(pair_friction({.brick_friction = 0.0}, {.brick_friction = 0.4}) == 0.0);
-}
-
 TEST_CASE("a standing brick has its thickness along, its width across and its height up") {
   const Extents standing = extents({}, Stance::standing);
   CHECK(standing.along == kThickness);

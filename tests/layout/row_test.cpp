@@ -71,7 +71,7 @@ TEST_CASE("a gap is measured between the faces that look along the row, whatever
 
 TEST_CASE("parts come in the order of the file") {
   const Layout layout = read(
-      "[[brick]]\nat_mm = [0, 100]\n[[row]]\ncount = 3\ngap_mm = 10\n[[brick]]\nat_mm = [0, 200, 30]\nheading_deg = 90\npose = \"flat\"\n"
+      "[[brick]]\nat_mm = [0, 100]\n[[row]]\ncount = 3\ngap_mm = 10\n[[brick]]\nat_mm = [0, 100, 48]\nheading_deg = 90\npose = \"flat\"\n"
       "[[row]]\nfrom_mm = [0, 300]\ncount = 2\ngap_mm = 10\n");
   REQUIRE(layout.parts.size() == 4);
   CHECK(layout.parts[0].name == "brick 1");
@@ -79,7 +79,7 @@ TEST_CASE("parts come in the order of the file") {
   CHECK(layout.parts[2].name == "brick 2");
   CHECK(layout.parts[3].name == "row 2");
   CHECK(layout.parts[3].first == 5);
-  CHECK(layout.bricks[4].foot == Vec3{0.0, 0.2, 0.03});
+  CHECK(layout.bricks[4].foot == Vec3{0.0, 0.1, 0.048});
   CHECK(layout.bricks[4].heading == kPi / 2.0);
   CHECK(layout.bricks[4].stance == Stance::flat);
 }

@@ -81,10 +81,12 @@ TrainBrick Chain::make_brick(BrickId id) const {
   brick.thickness = kind.thickness;
   const Link& link = scene_->link_of(id);
   if (link.next != kNoBrick) {
+    const Layout& layout = *scene_->layout;
     const BrickKind& ahead = scene_->kind_of(link.next);
     brick.pitch = link.pitch / kind.height;
     brick.thickness_ahead = ahead.thickness / kind.height;
-    brick.friction = pair_friction(kind.surface, ahead.surface);
+    const auto kind_index = [&layout](BrickId which) { return layout.bricks[static_cast<std::size_t>(which)].kind; };
+    brick.friction = surface_pair(layout, kind_index(id), kind_index(link.next)).friction;
     brick.hit_angle = arc_sine(brick.pitch - brick.thickness_ahead);
   }
   return brick;

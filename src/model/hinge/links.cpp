@@ -138,7 +138,9 @@ class Search {
 
 void Search::check_stances() {
   for (BrickId id = 0; id < layout_.brick_count() && !full(); ++id) {
-    if (brick(id).stance != Stance::standing) {
+    if (layout_.kind_of(id).shape == Shape::ball) {
+      problem("hinge: brick " + std::to_string(id) + " is a ball; hinge turns standing bricks about their toes; rigid can");
+    } else if (brick(id).stance != Stance::standing) {
       problem("hinge: brick " + std::to_string(id) +
               " does not stand on its smallest face; hinge turns standing bricks about their toes; rigid can");
     } else if (brick(id).foot.z != 0.0) {

@@ -15,11 +15,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Bricks ahead whose contact angles differ by less are struck at once and share what is handed on [rad].
 constexpr double kSameContact = 1e-9;
 
-/// Restitution of a pair: the geometric mean of what its two kinds state.
-double pair_restitution(const BrickKind& a, const BrickKind& b) {
-  return std::sqrt(a.surface.brick_restitution * b.surface.brick_restitution);
-}
-
 }  // namespace
 
 void PivotModel::start_pushes() {
@@ -116,7 +111,9 @@ void PivotModel::hand_on(const Hit& hit) {
     struck_inertia += moving_.body_of(pair.ahead()).inertia;
   }
   hitter.fall = fall_at(hit.time, contact_angle, hitter.fall.omega);
-  const double restitution = pair_restitution(layout_.kind_of(hit.hitter), layout_.kind_of(hit.struck));
+  const double restitution = surface_pair(layout_, layout_.bricks[static_cast<std::size_t>(hit.hitter)].kind,
+                                          layout_.bricks[static_cast<std::size_t>(hit.struck)].kind)
+                                 .restitution;
   // For one brick of the same kind this is (1 + e) / 2 of the hitter's angular velocity.
   const double omega = (1.0 + restitution) * hitter.body->inertia / (hitter.body->inertia + struck_inertia) * hitter.fall.omega;
   const double force = report_force(hitter, hit.time) / static_cast<double>(struck.size());

@@ -215,6 +215,10 @@ class LineFinder {
 
 Result<Lines> find_lines(const Layout& layout) {
   for (BrickId i = 0; i < layout.brick_count(); ++i) {
+    if (layout.kind_of(i).shape == Shape::ball) {
+      return failure(layout.name + ": model pivot: brick " + std::to_string(i) +
+                     " is a ball; this model knows only bricks that turn about an edge (model \"rigid\" knows all)");
+    }
     if (layout.bricks[static_cast<std::size_t>(i)].foot.z != 0.0) {
       return failure(layout.name + ": model pivot: brick " + std::to_string(i) + " stands " +
                      std::to_string(1000.0 * layout.bricks[static_cast<std::size_t>(i)].foot.z) +

@@ -129,10 +129,8 @@ void Front::note_rest(int place, double now) {
 }
 
 BrickId Front::next_of_part(BrickId brick) const {
-  for (const Part& part : world_.layout.parts) {
-    if (brick >= part.first && brick + 1 < part.first + part.count) return brick + 1;
-  }
-  return kNoBrick;
+  const Part* part = world_.layout.part_of(brick);
+  return part != nullptr && part->line && brick + 1 < part->first + part->count ? brick + 1 : kNoBrick;
 }
 
 void Front::begin_push(const Push& push, double now) {

@@ -209,6 +209,9 @@ double default_time_step(const Layout& layout) {
 }
 
 Result<std::unique_ptr<Model>> make_rigid_model(const Layout& layout, const RigidConfig& config) {
+  for (const BrickKind& kind : layout.kinds) {
+    if (kind.shape == Shape::ball) return failure(layout.name + ": model rigid: \"" + kind.name + "\" is a ball; no model rolls one yet.");
+  }
   const double most = 4.0 * default_time_step(layout);
   if (config.time_step > most) {
     std::array<char, 160> words{};

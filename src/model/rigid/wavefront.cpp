@@ -11,9 +11,6 @@ namespace {
 double thinnest(const Body& body) { return 2.0 * std::min({body.half.x, body.half.y, body.half.z}); }
 double longest(const Body& body) { return 2.0 * std::max({body.half.x, body.half.y, body.half.z}); }
 
-// Two kinds in contact: the geometric mean, which is the value itself where both are alike.
-double combined(double one, double other) { return one == other ? one : std::sqrt(one * other); }
-
 // How far the farthest corner may have moved [m].
 double displacement(const Body& body, const Vec3& position, const Quat& orientation) {
   const Quat& q = body.orientation;
@@ -140,10 +137,9 @@ void Front::list_neighbours(int place) {
     Touch touch;
     touch.a = a;
     touch.b = b;
-    const Surface& mine = world_.layout.kinds[body.kind].surface;
-    const Surface& its = world_.layout.kind_of(other).surface;
-    touch.friction = pair_friction(mine, its);
-    touch.restitution = combined(mine.brick_restitution, its.brick_restitution);
+    const SurfacePair surfaces = surface_pair(world_.layout, body.kind, world_.layout.bricks[at].kind);
+    touch.friction = surfaces.friction;
+    touch.restitution = surfaces.restitution;
     touches_.push_back(touch);
   }
 }
