@@ -1,10 +1,9 @@
 // The only loop.
-#include <algorithm>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "run/run_end.h"
 #include "topple/run.h"
 
 namespace topple {
@@ -12,17 +11,6 @@ namespace topple {
 namespace {
 
 constexpr std::int64_t kStepsBetweenWatches = 4096;
-
-std::string brick_words(BrickId brick) { return "brick " + std::to_string(brick); }
-
-bool fell(const Recording& recording, BrickId brick) {
-  const Layout& layout = recording.layout();
-  // What a ball or a structure does is no wave that could die.
-  if (const Part* part = layout.part_of(brick); part != nullptr && !part->line) return true;
-  const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
-  const double turned = tilt(layout, brick, recording.at(brick, std::numeric_limits<double>::infinity()).pose.orientation);
-  return turned > tip_angle(extents(layout.kinds[put.kind], put.stance));
-}
 
 /// What the events tell while they come: how far the wave is, and where it stopped.
 struct Story {
@@ -38,39 +26,6 @@ struct Story {
     }
   }
 };
-
-/// Whether a brick that the wave has reached (10 degrees) is always past its tip angle, so that nobody need look.
-bool all_tip_before_arrival(const Layout& layout) {
-  return std::all_of(layout.bricks.begin(), layout.bricks.end(),
-                     [&layout](const Brick& brick) { return tip_angle(extents(layout.kinds[brick.kind], brick.stance)) < kArrivalTilt; });
-}
-
-/// The last brick that was pushed or struck and rests short of its tip angle.
-BrickId last_not_fallen(const Recording& recording) {
-  for (std::int64_t i = recording.event_count() - 1; i >= 0; --i) {
-    const Event event = recording.event(i);
-    const bool moved = event.kind == EventKind::pushed || event.kind == EventKind::struck;
-    if (moved && !fell(recording, event.brick)) return event.brick;
-  }
-  return kNoBrick;
-}
-
-RunEnd end_at_rest(const Recording& recording, const Story& story) {
-  RunEnd end{.reason = EndReason::at_rest, .words = "everything is at rest"};
-  if (story.missed != kNoBrick) {
-    end.reason = EndReason::wave_died;
-    end.brick = story.missed;
-    end.words = "the wave died at " + brick_words(story.missed) + ": it fell flat without reaching " + brick_words(story.missed + 1);
-    return end;
-  }
-  const bool all_fell = story.moved == story.arrived && all_tip_before_arrival(recording.layout());
-  const BrickId stopped = all_fell ? kNoBrick : last_not_fallen(recording);
-  if (stopped == kNoBrick) return end;
-  end.reason = EndReason::wave_died;
-  end.brick = stopped;
-  end.words = "the wave died at " + brick_words(stopped) + ": it was moved, but not past its tip angle";
-  return end;
-}
 
 }  // namespace
 
@@ -92,10 +47,11 @@ Result<Recording> simulate(Layout layout, const ModelConfig& model_config, const
     const double time = static_cast<double>(model.step_count()) * time_step;
     if (status.progress == Progress::not_finite) {
       end = {.reason = EndReason::not_finite, .brick = status.brick};
-      end.words = "the numbers of " + brick_words(status.brick) + " are no longer finite at step " + std::to_string(model.step_count());
+      end.words =
+          "the numbers of brick " + std::to_string(status.brick) + " are no longer finite at step " + std::to_string(model.step_count());
     } else if (status.progress == Progress::at_rest) {
       recorder.close_tracks();
-      end = end_at_rest(recording, story);
+      end = end_at_rest(recording, {.missed = story.missed, .everyone_arrived = story.moved == story.arrived});
     } else if (time >= config.until) {
       end = {.reason = EndReason::time_limit, .words = "the time limit was reached"};
     } else if (config.watch && model.step_count() % kStepsBetweenWatches == 0) {
