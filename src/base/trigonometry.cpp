@@ -9,32 +9,6 @@ namespace topple {
 
 namespace {
 
-// Taylor series: on [-pi/4, pi/4] the first term left out is below 1e-19.
-double sin_series(double x) {
-  const double q = x * x;
-  double s = 1.0 / 355687428096000.0;
-  s = s * q - 1.0 / 1307674368000.0;
-  s = s * q + 1.0 / 6227020800.0;
-  s = s * q - 1.0 / 39916800.0;
-  s = s * q + 1.0 / 362880.0;
-  s = s * q - 1.0 / 5040.0;
-  s = s * q + 1.0 / 120.0;
-  s = s * q - 1.0 / 6.0;
-  return x + x * (q * s);
-}
-
-double cos_series(double x) {
-  const double q = x * x;
-  double c = 1.0 / 20922789888000.0;
-  c = c * q - 1.0 / 87178291200.0;
-  c = c * q + 1.0 / 479001600.0;
-  c = c * q - 1.0 / 3628800.0;
-  c = c * q + 1.0 / 40320.0;
-  c = c * q - 1.0 / 720.0;
-  c = c * q + 1.0 / 24.0;
-  return (1.0 - 0.5 * q) + q * (q * c);
-}
-
 // |x| <= 1/16, so eight terms leave less than 1e-19.
 double atan_series(double x) {
   const double q = x * x;
@@ -61,33 +35,12 @@ constexpr std::array<double, 9> kAtanOfEighths = {0.0,
 
 // 0 <= x <= 1; atan(x) = atan(c) + atan((x - c) / (1 + c x)).
 double atan_unit(double x) {
-  const auto eighth = static_cast<std::size_t>(8.0 * x + 0.5);
-  const double c = static_cast<double>(eighth) / 8.0;
-  return kAtanOfEighths[eighth] + atan_series((x - c) / (1.0 + c * x));
+  const auto eighth = static_cast<std::int32_t>(8.0 * x + 0.5);
+  const double c = eighth / 8.0;
+  return kAtanOfEighths[static_cast<std::size_t>(eighth)] + atan_series((x - c) / (1.0 + c * x));
 }
 
 }  // namespace
-
-SinCos sin_cos(double x) {
-  // pi/2 in three pieces; the first two have 33 bits, so that products with a quadrant number below 2^20 are exact.
-  constexpr double kHalfPi1 = 0x1.921fb544p+0;
-  constexpr double kHalfPi2 = 0x1.0b4611a6p-34;
-  constexpr double kHalfPi3 = 0x1.3198a2e037073p-69;
-  const double quadrants = std::floor(x * (2.0 / kPi) + 0.5);
-  const double r = ((x - quadrants * kHalfPi1) - quadrants * kHalfPi2) - quadrants * kHalfPi3;
-  const double s = sin_series(r);
-  const double c = cos_series(r);
-  switch (static_cast<std::int64_t>(quadrants) & 3) {
-    case 0:
-      return {s, c};
-    case 1:
-      return {c, -s};
-    case 2:
-      return {-s, -c};
-    default:
-      return {-c, s};
-  }
-}
 
 double arc_tangent(double y, double x) {
   const double ay = std::fabs(y);

@@ -47,16 +47,6 @@ Cubic<T> cubic(const T& from, const T& from_rate, const T& to, const T& to_rate,
 
 }  // namespace
 
-Quintic quintic(const HingedKnot& first, const HingedKnot& last, double span) {
-  const double v0 = double{first.rate} * span;
-  const double q0 = 0.5 * double{first.acceleration} * span * span;
-  // What is left for the three higher powers to do: of the angle, its slope and its bend at u = 1.
-  const double angle = double{last.angle} - double{first.angle} - v0 - q0;
-  const double slope = double{last.rate} * span - v0 - 2.0 * q0;
-  const double bend = double{last.acceleration} * span * span - 2.0 * q0;
-  return {v0, q0, 10.0 * angle - 4.0 * slope + 0.5 * bend, -15.0 * angle + 7.0 * slope - bend, 6.0 * angle - 3.0 * slope + 0.5 * bend};
-}
-
 HingedState state_at(std::span<const HingedKnot> knots, double time) {
   const std::size_t i = knot_before(knots, time);
   const HingedKnot& knot = knots[i];

@@ -72,6 +72,21 @@ bool within(const Curve& curve, const float* time, const float* angle, std::size
 
 }  // namespace
 
+inline HingedKnot HingedFit::knot(double time, double angle, double rate, double acceleration) const {
+  if (round_) {
+    time = rounded(time, KnotSteps::kTime);
+    angle = rounded(angle, KnotSteps::kAngle);
+    rate = rounded(rate, KnotSteps::kRate);
+    acceleration = rounded(acceleration, KnotSteps::kAcceleration);
+  }
+  return {static_cast<float>(time), static_cast<float>(angle), static_cast<float>(rate), static_cast<float>(acceleration)};
+}
+
+inline HingedKnot HingedFit::knot_at(std::size_t index) const {
+  return knot(base_time_ + double{times()[index]}, base_angle_ + double{angles()[index]}, double{rates()[index]},
+              double{accelerations()[index]});
+}
+
 void HingedFit::open(BrickId brick, double time, const HingedState& state, double tolerance, bool again) {
   brick_ = brick;
   tolerance_ = static_cast<float>(tolerance) * kMargin;
@@ -85,7 +100,7 @@ void HingedFit::open(BrickId brick, double time, const HingedState& state, doubl
   top_rate_ = 0.0;
   knots_.clear();
   kinks_.clear();
-  push_knot(knot(0.0, state));
+  push_knot(knot(0.0, state.angle, state.rate, state.acceleration));
   fresh_ = true;
 }
 
@@ -110,21 +125,6 @@ void HingedFit::grow() {
 bool HingedFit::at(double time) const {
   const float since = static_cast<float>(time - base_clock_);
   return count_ == 0 ? since <= 0.0F : since <= times()[count_ - 1];
-}
-
-HingedKnot HingedFit::knot_at(std::size_t index) const {
-  return knot(base_time_ + double{times()[index]},
-              {base_angle_ + double{angles()[index]}, double{rates()[index]}, double{accelerations()[index]}});
-}
-
-HingedKnot HingedFit::knot(double time, const HingedState& state) const {
-  if (!round_) {
-    return {static_cast<float>(time), static_cast<float>(state.angle), static_cast<float>(state.rate),
-            static_cast<float>(state.acceleration)};
-  }
-  return {static_cast<float>(rounded(time, KnotSteps::kTime)), static_cast<float>(rounded(state.angle, KnotSteps::kAngle)),
-          static_cast<float>(rounded(state.rate, KnotSteps::kRate)),
-          static_cast<float>(rounded(state.acceleration, KnotSteps::kAcceleration))};
 }
 
 bool HingedFit::fits(std::size_t count) const {
@@ -158,8 +158,7 @@ void HingedFit::refine_start() {
   if (std::abs(first - told) <= 0.1 * std::max(std::abs(first), std::abs(told))) return;
   const double change = double{rates()[3]} - double{start.rate};
   const double time = double{times()[3]};
-  if (2.0 * std::abs(change - first * time) < std::abs(change - told * time))
-    start.acceleration = knot(0.0, {0.0, 0.0, first}).acceleration;
+  if (2.0 * std::abs(change - first * time) < std::abs(change - told * time)) start.acceleration = knot(0.0, 0.0, 0.0, first).acceleration;
 }
 
 void HingedFit::stretch(TrackStore& out) {
@@ -197,7 +196,7 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
     if (kink.index > index) break;
     ++passed;
     if (kink.index != index) continue;
-    HingedKnot after = knot(0.0, {0.0, kink.rate, kink.acceleration});
+    HingedKnot after = knot(0.0, 0.0, kink.rate, kink.acceleration);
     after.time = knots_.back().time;
     after.angle = knots_.back().angle;
     push_knot(after);

@@ -55,7 +55,7 @@ class HingedFit {
   bool fits(std::size_t count) const;
   bool never_left() const;
   void refine_start();
-  HingedKnot knot(double time, const HingedState& state) const;
+  HingedKnot knot(double time, double angle, double rate, double acceleration) const;
   HingedKnot knot_at(std::size_t index) const;
   std::size_t longest(std::size_t good, std::size_t bad) const;
   void stretch(TrackStore& out);

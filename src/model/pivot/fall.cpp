@@ -1,5 +1,6 @@
 #include "model/pivot/fall.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,22 +17,8 @@ Turning turning(const Extents& size, double mass, double gravity, InertiaRule ru
   return {.sine = 0.5 * weight_over_inertia * size.up, .cosine = 0.5 * weight_over_inertia * size.along};
 }
 
-namespace {
-
-Fall euler(const Turning& body, const Fall& from, double until) {
-  // [Arnesson2020] (3.1) and (3.2): both right sides at the old time.
-  const double h = until - from.time;
-  return fall_at(until, from.theta + h * from.omega, from.omega + h * body.acceleration(from.turned, from.time));
-}
-
-Fall semi_implicit(const Turning& body, const Fall& from, double until) {
-  const double h = until - from.time;
-  const double omega = from.omega + h * body.acceleration(from.turned, from.time);
-  return fall_at(until, from.theta + h * omega, omega);
-}
-
 Fall rk4(const Turning& body, const Fall& from, double until) {
-  // No force begins or ends inside the step (advance() splits it there), so every stage sees the force of its beginning.
+  // Every stage sees the force of the step's beginning.
   const double t = from.time;
   const double h = until - t;
   const double k1 = body.acceleration(from.turned, t);
@@ -43,19 +30,6 @@ Fall rk4(const Turning& body, const Fall& from, double until) {
   const double k4 = body.acceleration(sin_cos(from.theta + h * w3), t);
   return fall_at(until, from.theta + h / 6.0 * (from.omega + 2.0 * w2 + 2.0 * w3 + w4),
                  from.omega + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4));
-}
-
-Fall one_step(const Turning& body, const Fall& from, double until, Integrator integrator) {
-  if (integrator == Integrator::euler) return euler(body, from, until);
-  if (integrator == Integrator::semi_implicit) return semi_implicit(body, from, until);
-  return rk4(body, from, until);
-}
-
-}  // namespace
-
-Fall advance(const Turning& body, Fall from, double until, Integrator integrator) {
-  if (from.time < body.push_until && body.push_until < until) from = one_step(body, from, body.push_until, integrator);
-  return one_step(body, from, until, integrator);
 }
 
 double time_of_passing(const Turning& body, const Fall& from, double until, double theta, Integrator integrator) {
@@ -72,7 +46,10 @@ double time_of_passing(const Turning& body, const Fall& from, double until, doub
   // Regula falsi, the value of an end kept twice halved (Illinois); Euler's step is linear in time, so that the first guess is exact.
   int kept = 0;
   for (int i = 0; i < 60; ++i) {
-    const double middle = high - above * (high - low) / (above - below);
+    // A root often lies between two neighbouring times: then it is the later one.
+    const double after_low = std::nextafter(low, high);
+    if (after_low >= high) return high;
+    const double middle = std::clamp(high - above * (high - low) / (above - below), after_low, std::nextafter(high, low));
     const double value = advance(body, from, middle, integrator).theta - theta;
     if (std::fabs(value) < 1e-15) return middle;
     if (value < 0.0) {

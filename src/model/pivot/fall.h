@@ -36,8 +36,25 @@ double moment_of_inertia(const Extents& size, double mass, InertiaRule rule);
 
 Turning turning(const Extents& size, double mass, double gravity, InertiaRule rule);
 
+/// One step of rk4; no force begins or ends inside it.
+Fall rk4(const Turning& body, const Fall& from, double until);
+
+/// One step of the integrator to `until`, inside which no force begins or ends.
+inline Fall advance_smoothly(const Turning& body, const Fall& from, double until, Integrator integrator) {
+  if (integrator == Integrator::rk4) return rk4(body, from, until);
+  const double h = until - from.time;
+  const double omega = from.omega + h * body.acceleration(from.turned, from.time);
+  // [Arnesson2020] (3.1) and (3.2): both right sides at the old time; semi-implicit Euler takes the new rate for the angle.
+  return fall_at(until, from.theta + h * (integrator == Integrator::euler ? from.omega : omega), omega);
+}
+
 /// One step of the integrator to `until`, split where a force ends.
-Fall advance(const Turning& body, Fall from, double until, Integrator integrator);
+inline Fall advance(const Turning& body, const Fall& from, double until, Integrator integrator) {
+  if (from.time < body.push_until && body.push_until < until) {
+    return advance_smoothly(body, advance_smoothly(body, from, body.push_until, integrator), until, integrator);
+  }
+  return advance_smoothly(body, from, until, integrator);
+}
 
 /// When the same step passes `theta` on its way up [s]; later than `until` if it does not.
 double time_of_passing(const Turning& body, const Fall& from, double until, double theta, Integrator integrator);

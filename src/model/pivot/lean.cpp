@@ -93,14 +93,8 @@ double Pair::distance(double behind, double ahead) const {
   return separation(b, a);
 }
 
-Bound Pair::bound_in_line(const Ahead& ahead) const {
+Bound Pair::bound_on_rear_edge(const Ahead& ahead) const {
   const SinCos& a = ahead.turned;
-  const double rise = (pitch_ * a.cos - thickness_) / height_;
-  if (rise >= 0.0) {
-    // The upper edge on the rear face ahead: H sin(theta - ahead) = p cos(ahead) - T.
-    const double level = std::sqrt(1.0 - rise * rise);
-    return {.theta = ahead.theta + arc_tangent(rise, level), .rate = ahead.omega * (1.0 - pitch_ * a.sin / (height_ * level))};
-  }
   // The front face on the lower rear edge ahead: p cos(theta) = T cos(theta - ahead).
   const double x = pitch_ - thickness_ * a.cos;
   const double z = thickness_ * a.sin;
@@ -108,22 +102,11 @@ Bound Pair::bound_in_line(const Ahead& ahead) const {
   return {.theta = arc_tangent(x, z), .rate = ahead.omega * turn, .on_rear_edge = true};
 }
 
-Bound Pair::bound(double from, double to, const Ahead& ahead) const {
-  if (in_line_) {
-    const Bound bound = bound_in_line(ahead);
-    return bound.theta >= from ? bound : Bound{.theta = from, .rate = 0.0};
-  }
+Bound Pair::bound_out_of_line(double from, double to, const Ahead& ahead) const {
   if (to <= from || distance(to, ahead.theta) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = 0.0};
   if (distance(from, ahead.theta) < 0.0) return {.theta = from, .rate = 0.0};
   const double theta = falling_root([&](double t) { return distance(t, ahead.theta); }, from, to);
   return {.theta = theta, .rate = ahead.omega * bound_slope(theta, ahead.theta)};
-}
-
-bool Pair::clear(const SinCos& behind, const Ahead& ahead) const {
-  if (!in_line_) return false;
-  const SinCos& a = ahead.turned;
-  const double room = pitch_ * a.cos - thickness_;
-  return room >= 0.0 && height_ * (behind.sin * a.cos - behind.cos * a.sin) < room;
 }
 
 double Pair::bound_slope(double behind, double ahead) const {

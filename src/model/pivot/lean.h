@@ -2,6 +2,7 @@
 /// distance of the two boxes for all others.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "base/trigonometry.h"
@@ -39,17 +40,35 @@ class Pair {
 
   /// Bound on the tilt of the brick behind, which comes from `from` and would like to get to `to` [rad], when the one ahead is as
   /// `ahead` says. At least `from`; more than `to` if nothing is in the way.
-  Bound bound(double from, double to, const Ahead& ahead) const;
+  Bound bound(double from, double to, const Ahead& ahead) const {
+    if (!in_line_) return bound_out_of_line(from, to, ahead);
+    const Bound bound = bound_in_line(ahead);
+    return bound.theta >= from ? bound : Bound{.theta = from, .rate = 0.0};
+  }
 
   /// Whether the brick behind, at a tilt with sine and cosine `behind`, certainly stays clear of the one ahead: a cheap first question.
-  bool clear(const SinCos& behind, const Ahead& ahead) const;
+  bool clear(const SinCos& behind, const Ahead& ahead) const {
+    if (!in_line_) return false;
+    const SinCos& a = ahead.turned;
+    const double room = pitch_ * a.cos - thickness_;
+    return room >= 0.0 && height_ * (behind.sin * a.cos - behind.cos * a.sin) < room;
+  }
 
   /// Where the one ahead stops when it falls back from `from` to `to` (<= from) onto the one behind at tilt `behind` [rad], if it does.
   std::optional<double> fall_back_stop(double behind, double from, double to) const;
 
  private:
   double distance(double behind, double ahead) const;
-  Bound bound_in_line(const Ahead& ahead) const;
+  Bound bound_in_line(const Ahead& ahead) const {
+    const SinCos& a = ahead.turned;
+    const double rise = (pitch_ * a.cos - thickness_) / height_;
+    if (!(rise >= 0.0)) return bound_on_rear_edge(ahead);
+    // The upper edge on the rear face ahead: H sin(theta - ahead) = p cos(ahead) - T.
+    const double level = std::sqrt(1.0 - rise * rise);
+    return {.theta = ahead.theta + arc_tangent(rise, level), .rate = ahead.omega * (1.0 - pitch_ * a.sin / (height_ * level))};
+  }
+  Bound bound_on_rear_edge(const Ahead& ahead) const;
+  Bound bound_out_of_line(double from, double to, const Ahead& ahead) const;
   double bound_slope(double behind, double ahead) const;
   void find_contact(double height);
 

@@ -30,18 +30,6 @@ const Body& MovingSet::body_of(BrickId brick) const {
   return bodies_[3 * std::size_t{b.kind} + static_cast<std::size_t>(b.stance)];
 }
 
-double MovingSet::tilt(BrickId brick) const {
-  const std::int32_t slot = slot_[at(brick)];
-  return slot < 0 ? double{still(brick).tilt} : (*this)[slot].fall.theta;
-}
-
-Ahead MovingSet::as_ahead(BrickId brick) const {
-  const Moving* moving = find(brick);
-  if (moving != nullptr) return {moving->fall.theta, moving->fall.omega, moving->fall.turned};
-  const double theta = still(brick).tilt;
-  return {theta, 0.0, sin_cos(theta)};
-}
-
 bool MovingSet::after(std::int32_t a, std::int32_t b) const {
   const Moving& one = (*this)[a];
   const Moving& other = (*this)[b];

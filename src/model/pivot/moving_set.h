@@ -68,8 +68,16 @@ class MovingSet {
     const BrickId behind = lines_.behind[static_cast<std::size_t>(brick)];
     return behind == kNoBrick ? nullptr : find(behind);
   }
-  double tilt(BrickId brick) const;     ///< Of any brick [rad].
-  Ahead as_ahead(BrickId brick) const;  ///< Any brick, for the one behind it.
+  double tilt(BrickId brick) const {  ///< Of any brick [rad].
+    const Moving* moving = find(brick);
+    return moving == nullptr ? double{still(brick).tilt} : moving->fall.theta;
+  }
+  Ahead as_ahead(BrickId brick) const {  ///< Any brick, for the one behind it.
+    const Moving* moving = find(brick);
+    if (moving != nullptr) return {moving->fall.theta, moving->fall.omega, moving->fall.turned};
+    const double theta = still(brick).tilt;
+    return {theta, 0.0, sin_cos(theta)};
+  }
   const Lines& lines() const { return lines_; }
 
   Moving& wake(BrickId brick, double time);

@@ -58,17 +58,49 @@ Status PivotModel::step() {
   return {.progress = done ? Progress::at_rest : Progress::running};
 }
 
+inline double PivotModel::potential(const Body& body, const SinCos& turned) const {
+  const double rise = 0.5 * (body.size.up * (turned.cos - 1.0) + body.size.along * turned.sin);
+  return body.mass * layout_.gravity * rise;
+}
+
 void PivotModel::turn_bricks() {
   const bool look_at_all = step_count_ % kFollowStride == 0;
   turned_.clear();
   for (const std::int32_t slot : moving_.order()) {
     if (!look_at_all && moving_[slot].follows) continue;
     Moving& moving = moving_[slot];
-    turn(moving);
+    if (!fall_freely(moving)) turn(moving);
     moving.kinetic = 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
     moving.potential = potential(*moving.body, moving.fall.turned);
     turned_.push_back(slot);
   }
+}
+
+// Whether a brick at `behind` has nothing to do with the one ahead of it, as tightest_bound() sees it.
+inline bool PivotModel::out_of_reach(const Pair& pair, const Fall& behind) const {
+  if (const Moving* ahead = moving_.find(pair.ahead())) {
+    if (ahead->fall.theta == 0.0 && !moving_.still(pair.ahead()).struck) return true;
+    return pair.clear(behind.turned, {ahead->fall.theta, ahead->fall.omega, ahead->fall.turned});
+  }
+  const MovingSet::Still& still = moving_.still(pair.ahead());
+  return (still.tilt == 0.0F && !still.struck) || pair.clear(behind.turned, moving_.as_ahead(pair.ahead()));
+}
+
+// What most bricks do in most steps: turn()'s answer for one that gravity alone moves, that nothing stops, and that passes nothing.
+bool PivotModel::fall_freely(Moving& moving) {
+  const Fall& from = moving.fall;
+  const Turning& turning = moving.turning;
+  if (moving.leaning || from.time < turning.push_until || from.time < begin_) return false;
+  const Fall to = advance_smoothly(turning, from, end_, config_.integrator);
+  if (!(to.theta > 0.0 && to.theta < kRightAngle && to.omega >= 0.0)) return false;
+  for (const Pair& pair : moving.ahead) {
+    if (!out_of_reach(pair, to)) return false;
+  }
+  moving.held_up = false;
+  moving.acceleration = turning.acceleration(to.turned, end_);
+  if (to.theta >= kArrivalTilt && !moving_.still(moving.brick).arrived) note_arrival(moving, from, to.theta);
+  moving.fall = to;
+  return true;
 }
 
 void PivotModel::turn(Moving& moving) {
@@ -85,7 +117,7 @@ void PivotModel::turn(Moving& moving) {
   if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) come_back_to_foot(moving, from, to);
   moving.held_up = to.omega < 0.0 && stop_on_brick_behind(moving, from, to);
   moving.acceleration = moving.turning.acceleration(to.turned, end_);
-  if (const auto [bound, pair] = tightest_bound(moving, to); pair != nullptr && to.theta >= bound.theta) {
+  if (const auto [bound, pair] = tightest_hold(moving, to.theta); pair != nullptr && to.theta >= bound.theta) {
     catch_up(moving, from, to, bound, pair->ahead());
     lean(moving, from, bound, to.omega);
     // Known only now: how the bound moves it from the moment of catching up on.
@@ -94,7 +126,7 @@ void PivotModel::turn(Moving& moving) {
     if (to.theta >= kRightAngle) land(moving, from, to);
     moving.fall = to;
   }
-  note_arrival(moving, from, moving.fall);
+  if (moving.fall.theta >= kArrivalTilt) note_arrival(moving, from, moving.fall.theta);
   if (from.time < moving.turning.push_until) push_work_ += moving.turning.push * moving.body->inertia * (to.theta - from.theta);
 }
 
@@ -125,45 +157,48 @@ bool PivotModel::stop_on_brick_behind(const Moving& moving, const Fall& from, Fa
   return stop.has_value();
 }
 
-std::pair<Bound, const Pair*> PivotModel::tightest_bound(const Moving& moving, const Fall& to) const {
-  std::pair<Bound, const Pair*> tightest{{}, nullptr};
+inline PivotModel::Hold PivotModel::tightest_hold(const Moving& moving, double to) const {
+  Hold tightest;
   for (const Pair& pair : moving.ahead) {
-    const Ahead ahead = moving_.as_ahead(pair.ahead());
+    const Moving* ahead = moving_.find(pair.ahead());
+    const MovingSet::Still& still = moving_.still(pair.ahead());
     // What stands and was not struck yet is not leant on: the hit was looked for already.
-    if (ahead.theta == 0.0 && !moving_.still(pair.ahead()).struck) continue;
-    if (pair.clear(to.turned, ahead)) continue;
-    const Bound bound = pair.bound(moving.fall.theta, to.theta, ahead);
-    if (tightest.second == nullptr || bound.theta < tightest.first.theta) tightest = {bound, &pair};
+    if (!still.struck && (ahead != nullptr ? ahead->fall.theta == 0.0 : still.tilt == 0.0F)) continue;
+    const Ahead now = ahead != nullptr ? Ahead{ahead->fall.theta, ahead->fall.omega, ahead->fall.turned} : moving_.as_ahead(pair.ahead());
+    const Bound bound = pair.bound(moving.fall.theta, to, now);
+    if (tightest.pair == nullptr || bound.theta < tightest.bound.theta) tightest = {bound, &pair};
   }
   return tightest;
 }
 
 bool PivotModel::stay_leaning(Moving& moving) {
-  const Fall from = moving.fall;
+  const Fall& from = moving.fall;
   const double dt = end_ - from.time;
   const double gravity = moving.turning.acceleration(from.turned, from.time);
   // Alone it would fall so far; it parts from the brick ahead when that one leaves it more room.
-  const Fall alone = fall_at(end_, from.theta + dt * (from.omega + 0.5 * dt * gravity), from.omega + dt * gravity);
-  const auto [bound, pair] = tightest_bound(moving, alone);
-  if (pair == nullptr || bound.theta > alone.theta) return false;
+  const double theta_alone = from.theta + dt * (from.omega + 0.5 * dt * gravity);
+  const double omega_alone = from.omega + dt * gravity;
+  const auto [bound, pair] = tightest_hold(moving, theta_alone);
+  if (pair == nullptr || bound.theta > theta_alone) return false;
   if (bound.on_rear_edge != moving.on_rear_edge) {
     slip_over_edge(moving, bound);
   } else {
     follow_kinks(moving, *pair);
   }
-  lean(moving, from, bound, alone.omega);
-  note_arrival(moving, from, moving.fall);
+  if (bound.theta >= kArrivalTilt && !moving_.still(moving.brick).arrived) note_arrival(moving, from, bound.theta);
+  lean(moving, from, bound, omega_alone);
   return true;
 }
 
-void PivotModel::lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone) {
-  moving.leaning = true;
-  moving.on_rear_edge = bound.on_rear_edge;
-  moving.fall = fall_at(end_, bound.theta, std::fmin(bound.rate, omega_alone));
+inline void PivotModel::lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone) {
+  const double omega = std::fmin(bound.rate, omega_alone);
   const bool kinked = !moving.kinks.empty() && moving.kinks.back().time >= from.time;
   const double since = end_ - (kinked ? moving.kinks.back().time : from.time);
   const double earlier = kinked ? moving.kinks.back().after.rate : from.omega;
-  if (since > 1e-3 * (end_ - from.time)) moving.acceleration = (moving.fall.omega - earlier) / since;
+  if (since > 1e-3 * (end_ - from.time)) moving.acceleration = (omega - earlier) / since;
+  moving.leaning = true;
+  moving.on_rear_edge = bound.on_rear_edge;
+  moving.fall = fall_at(end_, bound.theta, omega);
 }
 
 void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead) {
@@ -222,11 +257,11 @@ void PivotModel::land(Moving& moving, const Fall& from, Fall& to) {
   }
 }
 
-void PivotModel::note_arrival(const Moving& moving, const Fall& from, const Fall& to) {
+void PivotModel::note_arrival(const Moving& moving, const Fall& from, double to) {
   MovingSet::Still& still = moving_.still(moving.brick);
-  if (still.arrived || to.theta < kArrivalTilt) return;
+  if (still.arrived) return;
   still.arrived = true;
-  const double share = to.theta > from.theta ? std::fmax(0.0, (kArrivalTilt - from.theta) / (to.theta - from.theta)) : 0.0;
+  const double share = to > from.theta ? std::fmax(0.0, (kArrivalTilt - from.theta) / (to - from.theta)) : 0.0;
   note(EventKind::arrived, from.time + share * (end_ - from.time), moving.brick);
 }
 
@@ -242,7 +277,13 @@ Status PivotModel::check_and_hash() {
   return status;
 }
 
-bool PivotModel::at_rest(Moving& moving) {
+// Whether it certainly is neither at rest nor follows, and holds nobody: a cheap first question.
+inline bool PivotModel::falls_on(const Moving& moving) const {
+  const bool between = moving.fall.theta > 0.0 && moving.fall.theta < kRightAngle;
+  return between && moving.fall.omega >= 0.0 && !moving.leaning && !moving.held_up && !moving.behind;
+}
+
+bool PivotModel::at_rest(const Moving& moving) const {
   if (end_ < moving.turning.push_until) return false;
   if (moving.fall.theta >= kRightAngle) return true;
   if (moving.fall.theta == 0.0) return moving.fall.omega == 0.0;
@@ -270,6 +311,10 @@ bool PivotModel::follows(const Moving& moving) const {
 void PivotModel::rest_bricks() {
   for (const std::int32_t slot : turned_) {
     Moving& moving = moving_[slot];
+    if (falls_on(moving)) {
+      moving.follows = false;
+      continue;
+    }
     find_unsupported(moving);
     if (!at_rest(moving)) {
       moving.follows = follows(moving);
@@ -338,24 +383,33 @@ HingedState PivotModel::state(const Moving& moving) const {
   return {sign * moving.fall.theta, sign * moving.fall.omega, sign * moving.acceleration};
 }
 
-double PivotModel::potential(const Body& body, const SinCos& turned) const {
-  const double rise = 0.5 * (body.size.up * (turned.cos - 1.0) + body.size.along * turned.sin);
-  return body.mass * layout_.gravity * rise;
-}
-
 void PivotModel::read(Frame& out) const {
   out.time = end_;
-  out.hinged.clear();
   out.free.clear();
   out.kinks.assign(kinks_.begin(), kinks_.end());
-  out.energy = {.kinetic = 0.0, .potential = still_potential_, .push_work = push_work_};
+  double kinetic = 0.0;
+  double potential = still_potential_;
+  out.hinged.resize(moving_.order().size());
+  // Each number goes straight to its place: a brick that is put together first and copied then waits for its own parts.
+  HingedMotion* next = out.hinged.data();
   for (const std::int32_t slot : moving_.order()) {
     const Moving& moving = moving_[slot];
-    if (moving.fall.time == end_) out.hinged.push_back({moving.brick, moving.phase, state(moving)});
-    out.energy.kinetic += moving.kinetic;
-    out.energy.potential += moving.potential;
+    const Fall& fall = moving.fall;
+    if (fall.time == end_) {
+      const double sign = moving.side;
+      next->brick = moving.brick;
+      next->phase = moving.phase;
+      next->state.angle = sign * fall.theta;
+      next->state.rate = sign * fall.omega;
+      next->state.acceleration = sign * moving.acceleration;
+      ++next;
+    }
+    kinetic += moving.kinetic;
+    potential += moving.potential;
   }
+  out.hinged.resize(static_cast<std::size_t>(next - out.hinged.data()));
   out.hinged.insert(out.hinged.end(), retired_.begin(), retired_.end());
+  out.energy = {.kinetic = kinetic, .potential = potential, .push_work = push_work_};
 }
 
 }  // namespace topple::pivot

@@ -37,6 +37,12 @@ class PivotModel final : public Model {
     BrickId struck = kNoBrick;
   };
 
+  /// The tightest bound on a brick's tilt, and whose; null if nothing holds it.
+  struct Hold {
+    Bound bound;
+    const Pair* pair = nullptr;
+  };
+
   // The stages of a step.
   void wake_unsupported();
   void start_pushes();
@@ -54,20 +60,23 @@ class PivotModel final : public Model {
 
   // One brick.
   Moving& wake_or_find(BrickId brick, double time);
+  bool fall_freely(Moving& moving);
+  bool out_of_reach(const Pair& pair, const Fall& behind) const;
   void turn(Moving& moving);
   void note_end_of_push(Moving& moving, const Fall& from);
   void come_back_to_foot(Moving& moving, const Fall& from, Fall& to);
   bool stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const;
-  std::pair<Bound, const Pair*> tightest_bound(const Moving& moving, const Fall& to) const;
+  Hold tightest_hold(const Moving& moving, double to) const;
   bool stay_leaning(Moving& moving);
   void lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone);
   void catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead);
   void slip_over_edge(Moving& moving, const Bound& bound);
   void follow_kinks(Moving& moving, const Pair& pair);
   void land(Moving& moving, const Fall& from, Fall& to);
-  void note_arrival(const Moving& moving, const Fall& from, const Fall& to);
+  void note_arrival(const Moving& moving, const Fall& from, double to);
   bool follows(const Moving& moving) const;
-  bool at_rest(Moving& moving);
+  bool falls_on(const Moving& moving) const;
+  bool at_rest(const Moving& moving) const;
   void find_unsupported(const Moving& moving);
 
   void kink(Moving& moving, double time, const HingedState& before, const HingedState& after);
