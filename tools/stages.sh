@@ -61,7 +61,12 @@ build() {
   cmake --preset "$preset" "$@" && cmake --build "build/$preset" -- -k 0
 }
 
-# run_tests PRESET: every CTest test of a build, verbosely, so that doctest's totals can be counted.
+# build_some PRESET TARGET...: configures, and builds these.
+build_some() {
+  cmake --preset "$1" && cmake --build "build/$1" --target "${@:2}"
+}
+
+# run_tests PRESET [OPTION...]: the CTest tests of a build (all, or as the options say), verbosely, so that doctest's totals can be counted.
 run_tests() {
-  ctest --test-dir "build/$1" --no-tests=error --verbose
+  ctest --test-dir "build/$1" --no-tests=error --verbose "${@:2}"
 }
