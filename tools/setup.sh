@@ -85,6 +85,22 @@ install_page_packages() {
   fi
 }
 
+# build_engine: the core chapters as WebAssembly, for the page. Needs the packages of tools/packages-engine.txt.
+build_engine() {
+  [ -f build/wasm/build.ninja ] || configure wasm
+  step "build the page's engine" cmake --build build/wasm --target topple_engine
+  mkdir -p studio/public
+  cmp -s build/wasm/engine.wasm studio/public/engine.wasm || cp build/wasm/engine.wasm studio/public/engine.wasm
+}
+
+# build_engine_if_possible: without the engine the page still plays recordings, so that its lack is a sentence and no failure.
+build_engine_if_possible() {
+  if (install_packages tools/packages-engine.txt && say "Building the page's engine" && build_engine) 2>"$logs/engine.log"; then return; fi
+  rm -f studio/public/engine.wasm
+  say "The page comes without its engine, since clang 22 and the WASI packages of Debian cannot be had or used here (see $logs):"
+  say "it plays recordings and compares them, but layouts are run by build/release/topple alone."
+}
+
 build_page() {
   install_page_packages
   local sources=(studio/package-lock.json studio/index.html studio/src studio/vite.config.ts studio/tsconfig.json)

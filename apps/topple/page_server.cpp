@@ -15,7 +15,8 @@ constexpr int kPortsTried = 64;
 
 /// What the page may do in the browser: its own scripts, workers and pictures that it made itself, and nothing from elsewhere.
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self' blob:; style-src 'self' 'unsafe-inline'; img-src 'self' "
+    "blob: data:; "
     "font-src 'self'; connect-src 'self' blob:; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// A page elsewhere that makes its own name point to this machine is told apart by the name it asks for.

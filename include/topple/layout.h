@@ -134,6 +134,28 @@ SurfacePair surface_pair(const Layout& layout, std::uint16_t one, std::uint16_t 
 /// found, a line each: "name:line:column: key: what is wrong, the value, the allowed range".
 Result<Layout> read_layout(std::string_view text, std::string_view name, std::span<const std::string> overrides = {});
 
+/// The same of a layout that is still being drawn: bricks may overlap; find_doubts() tells which.
+Result<Layout> read_draft(std::string_view text, std::string_view name, std::span<const std::string> overrides = {});
+
+/// A place where a run may stop, or cannot be.
+struct Doubt {
+  enum class Kind : std::uint8_t {
+    overlap,       ///< `brick` and `other` are in one place: no model takes the layout.
+    miss,          ///< `other`, the nearest that should, falls beside `brick`.
+    beyond_reach,  ///< The gap from `other` to `brick` is too wide.
+    no_neighbour,  ///< Nothing near `brick` falls towards it.
+    no_push        ///< Nothing is pushed.
+  };
+  Kind kind = Kind::overlap;
+  BrickId brick = kNoBrick;
+  BrickId other = kNoBrick;
+  double amount = 0.0;  ///< By how much [m].
+  std::string words;    ///< As a sentence.
+};
+/// What geometry alone says against a layout: overlaps, and the first brick of each part or stretch that no falling brick reaches.
+/// The most serious first, no more than `most` of each sort.
+std::vector<Doubt> find_doubts(const Layout& layout, std::size_t most = 50);
+
 /// What `topple layout` prints, from the layout alone.
 struct LayoutSummary {
   struct Count {

@@ -44,6 +44,26 @@ struct RunConfig {
 /// Runs a layout to its end and records it. The recording owns the layout.
 Result<Recording> simulate(Layout layout, const ModelConfig& model, const RunConfig& config = {});
 
+/// A run in pieces, for a caller that does other things in between: the page.
+class Simulation {
+ public:
+  static Result<Simulation> start(Layout layout, const ModelConfig& model, const RunConfig& config = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  bool advance(std::int64_t steps);  ///< At most so many steps; false once the run is over.
+  void stop();                       ///< Ends it cleanly where it is.
+  const RunProgress& progress() const;
+  const Recording& recording() const;
+  Recording take();  ///< Of a run that is over.
+
+ private:
+  Simulation();
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// Whether a recipe still gives the same motion.
 struct ReplayVerdict {
   bool same = false;

@@ -30,7 +30,8 @@ struct NoisePlan {
 /// Reads one file. Each stage leaves its problems behind and goes on with what is good.
 class Reader {
  public:
-  Reader(std::string_view text, std::string_view name, std::span<const std::string> overrides) : problems_(name, overrides) {
+  Reader(std::string_view text, std::string_view name, std::span<const std::string> overrides, bool draft)
+      : problems_(name, overrides), draft_(draft) {
     layout_.name = name;
     layout_.text = text;
     layout_.overrides.assign(overrides.begin(), overrides.end());
@@ -145,6 +146,7 @@ class Reader {
       return;
     }
     add_noise();
+    if (draft_) return;
     const std::size_t before = problems_.count();
     report_overlaps(layout_, plans_, problems_);
     if (problems_.count() == before) report_unsupported(layout_, plans_, problems_);
@@ -166,17 +168,26 @@ class Reader {
   std::vector<PartPlan> plans_;
   NoisePlan noise_;
   bool parts_good_ = true;
+  bool draft_;  // Bricks may overlap or hang in the air.
 };
 
-}  // namespace
-
-Result<Layout> read_layout(std::string_view text, std::string_view name, std::span<const std::string> overrides) {
+Result<Layout> read(std::string_view text, std::string_view name, std::span<const std::string> overrides, bool draft) {
   if (const auto bad = unreadable(text)) {
     return failure(std::string(name) + ":" + std::to_string(bad->line) + ":" + std::to_string(bad->column) + ": " + bad->why);
   }
   Result<Node> root = parse_document(text, name);
   if (!root) return std::unexpected(root.error());
-  return Reader(text, name, overrides).read(std::move(*root));
+  return Reader(text, name, overrides, draft).read(std::move(*root));
+}
+
+}  // namespace
+
+Result<Layout> read_layout(std::string_view text, std::string_view name, std::span<const std::string> overrides) {
+  return read(text, name, overrides, false);
+}
+
+Result<Layout> read_draft(std::string_view text, std::string_view name, std::span<const std::string> overrides) {
+  return read(text, name, overrides, true);
 }
 
 }  // namespace topple

@@ -29,41 +29,90 @@ struct Story {
 
 }  // namespace
 
-Result<Recording> simulate(Layout layout, const ModelConfig& model_config, const RunConfig& config) {
-  const std::string name = model_name(model_config);
-  const double time_step = std::visit([](const auto& chosen) { return chosen.time_step; }, model_config);
-  Recording recording(std::move(layout), {.version = TOPPLE_VERSION, .model = name, .time_step = time_step});
-  auto made = make_model(recording.layout(), model_config);
-  if (!made) return std::unexpected(made.error());
-  Model& model = **made;
-  Recorder recorder(recording, config.recorder);
+struct Simulation::State {
+  State(Layout layout, Recipe recipe, const RunConfig& the_config)
+      : config(the_config), recording(std::move(layout), std::move(recipe)), recorder(recording, config.recorder) {}
 
+  void step();
+  void finish();
+
+  RunConfig config;
+  Recording recording;
+  Recorder recorder;
+  std::unique_ptr<Model> model;
   Story story;
   RunEnd end;  // Still running.
-  while (end.reason == EndReason::running) {
-    const Status status = model.step();
-    recorder.take(model);
-    story.take(model.events());
-    const double time = static_cast<double>(model.step_count()) * time_step;
-    if (status.progress == Progress::not_finite) {
-      end = {.reason = EndReason::not_finite, .brick = status.brick};
-      end.words =
-          "the numbers of brick " + std::to_string(status.brick) + " are no longer finite at step " + std::to_string(model.step_count());
-    } else if (status.progress == Progress::at_rest) {
-      recorder.close_tracks();
-      end = end_at_rest(recording, {.missed = story.missed, .everyone_arrived = story.moved == story.arrived});
-    } else if (time >= config.until) {
-      end = {.reason = EndReason::time_limit, .words = "the time limit was reached"};
-    } else if (config.watch && model.step_count() % kStepsBetweenWatches == 0) {
-      const RunProgress progress{recording.layout().brick_count(), story.arrived, model.step_count(), time};
-      if (!config.watch(progress, recording)) end = {.reason = EndReason::stopped, .words = "the run was stopped"};
-    }
+  RunProgress progress;
+};
+
+void Simulation::State::step() {
+  const Status status = model->step();
+  recorder.take(*model);
+  story.take(model->events());
+  progress = {recording.layout().brick_count(), story.arrived, model->step_count(),
+              static_cast<double>(model->step_count()) * model->time_step()};
+  if (status.progress == Progress::not_finite) {
+    end = {.reason = EndReason::not_finite, .brick = status.brick};
+    end.words =
+        "the numbers of brick " + std::to_string(status.brick) + " are no longer finite at step " + std::to_string(model->step_count());
+  } else if (status.progress == Progress::at_rest) {
+    recorder.close_tracks();
+    end = end_at_rest(recording, {.missed = story.missed, .everyone_arrived = story.moved == story.arrived});
+  } else if (progress.time >= config.until) {
+    end = {.reason = EndReason::time_limit, .words = "the time limit was reached"};
   }
-  end.step = model.step_count();
-  end.time = static_cast<double>(end.step) * time_step;
-  end.hash = model.hash();
-  recorder.finish(std::move(end));
-  return recording;
+  if (end.reason != EndReason::running) finish();
+}
+
+void Simulation::State::finish() {
+  end.step = progress.step;
+  end.time = progress.time;
+  end.hash = model->hash();
+  recorder.finish(end);
+}
+
+Simulation::Simulation() = default;
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+Result<Simulation> Simulation::start(Layout layout, const ModelConfig& model_config, const RunConfig& config) {
+  const double time_step = std::visit([](const auto& chosen) { return chosen.time_step; }, model_config);
+  Recipe recipe{.version = TOPPLE_VERSION, .model = model_name(model_config), .time_step = time_step};
+  Simulation simulation;
+  simulation.state_ = std::make_unique<State>(std::move(layout), std::move(recipe), config);
+  State& state = *simulation.state_;
+  auto made = make_model(state.recording.layout(), model_config);
+  if (!made) return std::unexpected(made.error());
+  state.model = std::move(*made);
+  state.progress.bricks = state.recording.layout().brick_count();
+  return simulation;
+}
+
+bool Simulation::advance(std::int64_t steps) {
+  State& state = *state_;
+  for (std::int64_t i = 0; i < steps && state.end.reason == EndReason::running; ++i) state.step();
+  return state.end.reason == EndReason::running;
+}
+
+void Simulation::stop() {
+  State& state = *state_;
+  if (state.end.reason != EndReason::running) return;
+  state.end = {.reason = EndReason::stopped, .words = "the run was stopped"};
+  state.finish();
+}
+
+const RunProgress& Simulation::progress() const { return state_->progress; }
+const Recording& Simulation::recording() const { return state_->recording; }
+Recording Simulation::take() { return std::move(state_->recording); }
+
+Result<Recording> simulate(Layout layout, const ModelConfig& model_config, const RunConfig& config) {
+  Result<Simulation> simulation = Simulation::start(std::move(layout), model_config, config);
+  if (!simulation) return std::unexpected(simulation.error());
+  while (simulation->advance(kStepsBetweenWatches)) {
+    if (config.watch && !config.watch(simulation->progress(), simulation->recording())) simulation->stop();
+  }
+  return simulation->take();
 }
 
 }  // namespace topple

@@ -43,11 +43,11 @@ export function newPose(): Pose {
   return { x: 0, y: 0, z: 0, qw: 1, qx: 0, qy: 0, qz: 0 };
 }
 
-/** Turns the brick's own axes into those of its stance (heading, left, up), as w x y z: half a turn's root for a flat or a lying brick. */
+/** Turns the brick's own axes into those of its stance (heading, left, up), as w x y z. As src/layout/geometry.cpp has it: a flat brick lies as one that has fallen, one on its side lies on its right. */
 const kStanceTurns: Record<Stance, readonly [number, number, number, number]> = {
   [Stance.standing]: [1, 0, 0, 0],
   [Stance.flat]: [Math.SQRT1_2, 0, Math.SQRT1_2, 0],
-  [Stance.onSide]: [Math.SQRT1_2, -Math.SQRT1_2, 0, 0],
+  [Stance.onSide]: [Math.SQRT1_2, Math.SQRT1_2, 0, 0],
 };
 
 /**

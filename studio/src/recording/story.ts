@@ -38,10 +38,15 @@ export class EventIndex {
     return -1;
   }
 
-  /** Bricks that a brick strikes, with the event of each. */
+  /** Bricks that a brick strikes, with the first event of each. */
   strikes(brick: number): number[] {
     const { events } = this.recording;
-    return Array.from(this.of(brick)).filter((i) => events.kind[i] === EventKind.struck && events.by[i] === brick);
+    const seen = new Set<number>();
+    return Array.from(this.of(brick)).filter((i) => {
+      if (events.kind[i] !== EventKind.struck || events.by[i] !== brick || seen.has(events.brick[i])) return false;
+      seen.add(events.brick[i]);
+      return true;
+    });
   }
 }
 

@@ -1,5 +1,6 @@
 /** Decodes off the page's thread. Takes an address or bytes, tells how far it is, hands the arrays over without copying. */
 
+import { buffersOf } from './buffers.ts';
 import { decodeRecording, FormatError } from './decode.ts';
 import { FetchError, fetchBytes } from './fetch_bytes.ts';
 import { findFalls, findFront, type Front } from './wave.ts';
@@ -31,15 +32,3 @@ self.onmessage = async (message: MessageEvent<Order>) => {
     tell({ kind: 'failed', message: known ? error.message : `The recording cannot be read: ${String(error)}` });
   }
 };
-
-/** The buffers of all typed arrays inside, each once. */
-function buffersOf(value: unknown, found = new Set<ArrayBuffer>()): ArrayBuffer[] {
-  if (ArrayBuffer.isView(value)) {
-    if (value.buffer instanceof ArrayBuffer) found.add(value.buffer);
-  } else if (Array.isArray(value)) {
-    return [...found];
-  } else if (value && typeof value === 'object') {
-    for (const part of Object.values(value)) buffersOf(part, found);
-  }
-  return [...found];
-}

@@ -1,0 +1,190 @@
+/// The engine as the page sees it: a few functions over one layout and one run, text and bytes through memory. The worker that calls it
+/// is studio/src/engine/worker.ts, its typed side studio/src/engine/engine.ts.
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "topple/measure.h"
+#include "topple/run.h"
+
+#define TOPPLE_EXPORT(name) __attribute__((export_name(#name)))
+
+namespace topple {
+namespace {
+
+/// All the engine holds: the layout that was read last, and the run under way.
+struct Desk {
+  std::optional<Layout> layout;
+  std::optional<Simulation> simulation;
+  std::optional<RecordingWriter> writer;
+  std::vector<std::uint8_t> bytes;  ///< What the last call gives back.
+  std::string answer;               ///< The same of those that give text: JSON, or an error's words.
+};
+
+Desk& desk() {
+  static Desk only;
+  return only;
+}
+
+void add_text(std::string& json, std::string_view text) {
+  json += '"';
+  for (const char c : text) {
+    char escape[8];
+    if (c == '"' || c == '\\') {
+      json += '\\';
+      json += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      std::snprintf(escape, sizeof(escape), "\\u%04x", static_cast<unsigned>(c));
+      json += escape;
+    } else {
+      json += c;
+    }
+  }
+  json += '"';
+}
+
+void add_number(std::string& json, double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  json += std::string_view(text).find('n') == std::string_view::npos ? text : "null";  // nan and inf are no JSON
+}
+
+void add_counts(std::string& json, const char* name, const std::vector<LayoutSummary::Count>& counts) {
+  json += std::string(",\"") + name + "\":[";
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    json += i == 0 ? "{\"name\":" : ",{\"name\":";
+    add_text(json, counts[i].name);
+    json += ",\"bricks\":" + std::to_string(counts[i].bricks) + "}";
+  }
+  json += "]";
+}
+
+const char* name_of(Doubt::Kind kind) {
+  constexpr const char* kNames[] = {"overlap", "miss", "beyond_reach", "no_neighbour", "no_push"};
+  return kNames[static_cast<int>(kind)];
+}
+
+void add_doubts(std::string& json, const std::vector<Doubt>& doubts) {
+  json += ",\"doubts\":[";
+  for (std::size_t i = 0; i < doubts.size(); ++i) {
+    const Doubt& doubt = doubts[i];
+    json += i == 0 ? "" : ",";
+    json += std::string("{\"kind\":\"") + name_of(doubt.kind) + "\",\"brick\":" + std::to_string(doubt.brick) +
+            ",\"other\":" + std::to_string(doubt.other) + ",\"amount\":";
+    add_number(json, doubt.amount);
+    json += ",\"words\":";
+    add_text(json, doubt.words);
+    json += "}";
+  }
+  json += "]";
+}
+
+std::string describe(const Layout& layout) {
+  const LayoutSummary summary = summarize(layout);
+  std::string json = "{\"bricks\":" + std::to_string(summary.bricks) + ",\"length\":";
+  add_number(json, summary.length);
+  add_counts(json, "kinds", summary.kinds);
+  add_counts(json, "colors", summary.colors);
+  add_doubts(json, find_doubts(layout));
+  return json + "}";
+}
+
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end > 0) lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+bool fail(const Error& error) {
+  desk().answer = error.message;
+  return false;
+}
+
+/// Everything written since the last call: whole pieces of docs/format.md.
+void collect(bool over) {
+  Desk& all = desk();
+  all.bytes.clear();
+  if (over) {
+    all.bytes = all.writer->end();
+    return;
+  }
+  for (std::vector<std::uint8_t> more = all.writer->more(); !more.empty(); more = all.writer->more()) {
+    all.bytes.insert(all.bytes.end(), more.begin(), more.end());
+  }
+}
+
+std::string hash_digits(std::uint64_t hash) {
+  char text[20];
+  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+}  // namespace
+}  // namespace topple
+
+using topple::desk;
+
+extern "C" {
+
+/// Room for `size` bytes that the page fills: text that it hands over. It is given back with topple_release.
+TOPPLE_EXPORT(topple_reserve) void* topple_reserve(std::size_t size) { return ::operator new(size); }
+TOPPLE_EXPORT(topple_release) void topple_release(void* room) { ::operator delete(room); }
+
+TOPPLE_EXPORT(topple_bytes) const std::uint8_t* topple_bytes() { return desk().bytes.data(); }
+TOPPLE_EXPORT(topple_byte_count) std::size_t topple_byte_count() { return desk().bytes.size(); }
+TOPPLE_EXPORT(topple_answer) const char* topple_answer() { return desk().answer.data(); }
+TOPPLE_EXPORT(topple_answer_size) std::size_t topple_answer_size() { return desk().answer.size(); }
+
+/// Reads a layout that may still have overlaps. Overrides are `key=value`, a line each. True: the answer is JSON (counts, length, doubts)
+/// and the bytes are its scene and bricks as the beginning of a recording. False: the answer is every problem, a line each.
+TOPPLE_EXPORT(topple_read)
+bool topple_read(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides, std::size_t overrides_size) {
+  topple::Desk& all = desk();
+  const std::vector<std::string> settings = topple::lines_of({overrides, overrides_size});
+  topple::Result<topple::Layout> layout = topple::read_draft({text, size}, {name, name_size}, settings);
+  if (!layout) return topple::fail(layout.error());
+  all.layout = std::move(*layout);
+  all.answer = topple::describe(*all.layout);
+  topple::Recording scene(*all.layout, {.version = TOPPLE_VERSION, .model = "", .time_step = 0.0});
+  all.bytes = topple::RecordingWriter(scene).begin();
+  return true;
+}
+
+/// Begins a run of a layout, overlaps refused. False: the answer says why not. True: the bytes begin its recording.
+TOPPLE_EXPORT(topple_start)
+bool topple_start(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides, std::size_t overrides_size) {
+  topple::Desk& all = desk();
+  all.writer.reset();
+  all.simulation.reset();
+  const std::vector<std::string> settings = topple::lines_of({overrides, overrides_size});
+  topple::Result<topple::Layout> layout = topple::read_layout({text, size}, {name, name_size}, settings);
+  if (!layout) return topple::fail(layout.error());
+  const topple::Result<topple::ModelConfig> config = topple::model_config(*layout);
+  if (!config) return topple::fail(config.error());
+  topple::Result<topple::Simulation> simulation = topple::Simulation::start(std::move(*layout), *config);
+  if (!simulation) return topple::fail(simulation.error());
+  all.simulation = std::move(*simulation);
+  all.writer.emplace(all.simulation->recording());
+  all.bytes = all.writer->begin();
+  return true;
+}
+
+/// Runs on by so many steps; false when the run is over.
+TOPPLE_EXPORT(topple_advance) bool topple_advance(int steps) { return desk().simulation->advance(steps); }
+TOPPLE_EXPORT(topple_stop) void topple_stop() { desk().simulation->stop(); }
+
+/// The bytes become what was recorded since the last call; with `over` the rest and the end.
+TOPPLE_EXPORT(topple_collect) void topple_collect(bool over) { topple::collect(over); }
+
+TOPPLE_EXPORT(topple_time) double topple_time() { return desk().simulation->progress().time; }
+TOPPLE_EXPORT(topple_arrived) double topple_arrived() { return static_cast<double>(desk().simulation->progress().arrived); }
+TOPPLE_EXPORT(topple_steps) double topple_steps() { return static_cast<double>(desk().simulation->progress().step); }
+
+/// After the end: the answer is the hash, 16 hexadecimal digits.
+TOPPLE_EXPORT(topple_hash) void topple_hash() { desk().answer = topple::hash_digits(desk().simulation->recording().end().hash); }
+}

@@ -1,0 +1,177 @@
+/**
+ * The engine, which is the same C++ as the program `topple`, as a typed object around its WebAssembly module. It knows nothing of workers,
+ * browsers or files: bytes of the module in, text and bytes out, so that node can use it as well.
+ */
+
+/** How many bricks of a kind or colour. */
+export interface Count {
+  name: string;
+  bricks: number;
+}
+
+/** What geometry says against a layout; the words are for people. */
+export interface Doubt {
+  kind: 'overlap' | 'miss' | 'beyond_reach' | 'no_neighbour' | 'no_push';
+  brick: number;
+  /** -1: none. */
+  other: number;
+  /** [m] */
+  amount: number;
+  words: string;
+}
+
+/** A layout as the engine understood it. */
+export interface Draft {
+  bricks: number;
+  /** Along all parts, foot to foot [m]. */
+  length: number;
+  kinds: Count[];
+  colors: Count[];
+  doubts: Doubt[];
+  /** The beginning of a recording: its scene and its bricks (docs/format.md). */
+  scene: Uint8Array<ArrayBuffer>;
+}
+
+/** Why a layout cannot be read or run: every problem, "name:line:column: key: what is wrong". */
+export class LayoutError extends Error {
+  override name = 'LayoutError';
+  get problems(): string[] {
+    return this.message.split('\n');
+  }
+}
+
+/** What the module exports; sizes and addresses in bytes. */
+interface Exports {
+  memory: WebAssembly.Memory;
+  _initialize(): void;
+  topple_reserve(size: number): number;
+  topple_release(room: number): void;
+  topple_bytes(): number;
+  topple_byte_count(): number;
+  topple_answer(): number;
+  topple_answer_size(): number;
+  topple_read(...texts: number[]): number;
+  topple_start(...texts: number[]): number;
+  topple_advance(steps: number): number;
+  topple_stop(): void;
+  topple_collect(over: number): void;
+  topple_time(): number;
+  topple_arrived(): number;
+  topple_steps(): number;
+  topple_hash(): void;
+}
+
+/** A C library on WASI asks for these; the engine opens and prints nothing, so that each may refuse. */
+function wasi(): WebAssembly.ModuleImports {
+  const kNoSuchFile = 8;
+  const none = (): number => kNoSuchFile;
+  return {
+    environ_get: () => 0,
+    environ_sizes_get: () => 0,
+    proc_exit: (code: number) => {
+      throw new Error(`the engine ended with ${code}`);
+    },
+    fd_close: none,
+    fd_seek: none,
+    fd_write: none,
+    fd_read: none,
+    fd_fdstat_get: none,
+    fd_prestat_get: none,
+    fd_prestat_dir_name: none,
+    clock_time_get: none,
+    random_get: none,
+  };
+}
+
+const encoder = new TextEncoder();
+const decoder = new TextDecoder();
+
+export class Engine {
+  private constructor(private readonly c: Exports) {}
+
+  static async load(module: BufferSource | WebAssembly.Module | Response | Promise<Response>): Promise<Engine> {
+    const imports = { wasi_snapshot_preview1: wasi() };
+    let instance: WebAssembly.Instance;
+    if (module instanceof WebAssembly.Module) instance = await WebAssembly.instantiate(module, imports);
+    else if (module instanceof ArrayBuffer || ArrayBuffer.isView(module)) {
+      instance = (await WebAssembly.instantiate(module, imports)).instance;
+    } else instance = (await WebAssembly.instantiateStreaming(module as Response | Promise<Response>, imports)).instance;
+    const c = instance.exports as unknown as Exports;
+    c._initialize();
+    return new Engine(c);
+  }
+
+  /** Memory that the engine holds [bytes]. */
+  get memory(): number {
+    return this.c.memory.buffer.byteLength;
+  }
+
+  /** @param overrides `key=value`, as `--set` of the program takes them. @throws LayoutError */
+  read(text: string, name = 'layout.toml', overrides: readonly string[] = []): Draft {
+    if (!this.withTexts(this.c.topple_read, [text, name, overrides.join('\n')])) throw new LayoutError(this.answer());
+    const draft = JSON.parse(this.answer()) as Omit<Draft, 'scene'>;
+    return { ...draft, scene: this.bytes() };
+  }
+
+  /** Begins a run. @returns The first bytes of its recording. @throws LayoutError */
+  start(text: string, name = 'layout.toml', overrides: readonly string[] = []): Uint8Array<ArrayBuffer> {
+    if (!this.withTexts(this.c.topple_start, [text, name, overrides.join('\n')])) throw new LayoutError(this.answer());
+    return this.bytes();
+  }
+
+  /** Runs on by so many steps. @returns Whether the run goes on. */
+  advance(steps: number): boolean {
+    return this.c.topple_advance(steps) !== 0;
+  }
+
+  stop(): void {
+    this.c.topple_stop();
+  }
+
+  /** What was recorded since the last call: whole pieces; with `over` the rest and the end. */
+  collect(over: boolean): Uint8Array<ArrayBuffer> {
+    this.c.topple_collect(over ? 1 : 0);
+    return this.bytes();
+  }
+
+  /** Simulated so far [s]. */
+  get time(): number {
+    return this.c.topple_time();
+  }
+  /** Bricks that the wave has reached. */
+  get arrived(): number {
+    return this.c.topple_arrived();
+  }
+  get steps(): number {
+    return this.c.topple_steps();
+  }
+  /** Of a run that is over: 16 hexadecimal digits. */
+  get hash(): string {
+    this.c.topple_hash();
+    return this.answer();
+  }
+
+  private answer(): string {
+    return decoder.decode(new Uint8Array(this.c.memory.buffer, this.c.topple_answer(), this.c.topple_answer_size()));
+  }
+
+  /** Out of the engine's memory, which may move: the one copy there is; from here on they are handed over. */
+  private bytes(): Uint8Array<ArrayBuffer> {
+    return new Uint8Array(this.c.memory.buffer, this.c.topple_bytes(), this.c.topple_byte_count()).slice() as Uint8Array<ArrayBuffer>;
+  }
+
+  private withTexts(call: (...texts: number[]) => number, texts: string[]): boolean {
+    const places: number[] = [];
+    const rooms: number[] = [];
+    for (const text of texts) {
+      const bytes = encoder.encode(text);
+      const room = this.c.topple_reserve(bytes.length + 1);
+      new Uint8Array(this.c.memory.buffer, room, bytes.length).set(bytes);
+      rooms.push(room);
+      places.push(room, bytes.length);
+    }
+    const good = call(...places) !== 0;
+    for (const room of rooms) this.c.topple_release(room);
+    return good;
+  }
+}

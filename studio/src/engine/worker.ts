@@ -1,0 +1,129 @@
+/** Runs the engine off the page's thread. It takes one order at a time; a run is done in short stretches, so that it hears when to stop. */
+
+import { buffersOf } from '../recording/buffers.ts';
+import { decodeRecording } from '../recording/decode.ts';
+import { GrowingRecording } from '../recording/growing.ts';
+import type { Loaded } from '../recording/load.ts';
+import type { Recording } from '../recording/types.ts';
+import { findFalls, findFront } from '../recording/wave.ts';
+import { Engine, LayoutError, type Draft } from './engine.ts';
+
+/** A layout as text, and what the command line's `--set` would say. */
+export interface Source {
+  text: string;
+  name: string;
+  overrides: readonly string[];
+}
+
+export type EngineOrder =
+  | { kind: 'load'; url: string }
+  | { kind: 'read'; id: number; source: Source }
+  | { kind: 'run'; id: number; source: Source }
+  | { kind: 'stop'; id: number };
+
+export type EngineReport =
+  | { kind: 'ready' }
+  | { kind: 'absent'; message: string }
+  | { kind: 'draft'; id: number; draft: Omit<Draft, 'scene'>; recording: Recording }
+  | { kind: 'problems'; id: number; problems: string[] }
+  | { kind: 'broken'; id: number; message: string }
+  | { kind: 'progress'; id: number; time: number; arrived: number }
+  | { kind: 'grown'; id: number; loaded: Loaded; over: false }
+  | { kind: 'over'; id: number; loaded: Loaded; hash: string; bytes: Uint8Array<ArrayBuffer>; cost: number };
+
+/** How long a stretch may take [ms]: a stop is heard after so long. */
+const kStretch = 25;
+/** How often what was recorded is shown [ms]. */
+const kLookEvery = 250;
+
+let engine: Engine | null = null;
+let running = -1;
+
+const tell = (report: EngineReport, transfer: Transferable[] = []): void => self.postMessage(report, { transfer });
+
+self.onmessage = (message: MessageEvent<EngineOrder>) => {
+  const order = message.data;
+  if (order.kind === 'load') void load(order.url);
+  else if (order.kind === 'stop') running = running === order.id ? -1 : running;
+  else void attempt(order.id, () => (order.kind === 'read' ? read(order.id, order.source) : run(order.id, order.source)));
+};
+
+async function load(url: string): Promise<void> {
+  try {
+    const answer = await fetch(url);
+    if (!answer.ok || !(answer.headers.get('content-type') ?? 'application/wasm').includes('wasm')) {
+      // A server that does not know the type may still have the file.
+      const bytes = answer.ok ? await answer.arrayBuffer() : new ArrayBuffer(0);
+      if (bytes.byteLength < 8) throw new Error(`the server answers ${answer.status}`);
+      engine = await Engine.load(bytes);
+    } else engine = await Engine.load(answer);
+    tell({ kind: 'ready' });
+  } catch (error) {
+    tell({ kind: 'absent', message: `The engine is not in this page (${String(error)}). Recordings can be played; layouts cannot be run here.` });
+  }
+}
+
+async function attempt(id: number, work: () => void | Promise<void>): Promise<void> {
+  try {
+    await work();
+  } catch (error) {
+    if (error instanceof LayoutError) tell({ kind: 'problems', id, problems: error.problems });
+    else tell({ kind: 'broken', id, message: `The engine stopped: ${String(error)}. The layout is untouched.` });
+  }
+}
+
+function read(id: number, source: Source): void {
+  const { scene, ...draft } = (engine as Engine).read(source.text, source.name, source.overrides);
+  const recording = decodeRecording(scene);
+  tell({ kind: 'draft', id, draft, recording }, buffersOf(recording));
+}
+
+/** Lets waiting messages in. */
+const breathe = (): Promise<void> =>
+  new Promise((resume) => {
+    const { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => {
+      port1.close();
+      resume();
+    };
+    port2.postMessage(0);
+  });
+
+async function run(id: number, source: Source): Promise<void> {
+  const began = performance.now();
+  let computed = 0;
+  const c = engine as Engine;
+  const growing = new GrowingRecording();
+  growing.add(c.start(source.text, source.name, source.overrides));
+  running = id;
+  let steps = 1;
+  let looked = began;
+  for (;;) {
+    const from = performance.now();
+    const more = c.advance(steps);
+    const took = performance.now() - from;
+    computed += took;
+    steps = Math.max(1, Math.min(65536, took < 1 ? steps * 2 : Math.floor((steps * kStretch) / took)));
+    if (!more) break;
+    if (running !== id) {
+      c.stop();
+      break;
+    }
+    if (performance.now() - looked > kLookEvery) {
+      looked = performance.now();
+      growing.add(c.collect(false));
+      if (growing.worthALook) tellLoaded(growing.look(false), (loaded) => ({ kind: 'grown', id, loaded, over: false }));
+      tell({ kind: 'progress', id, time: c.time, arrived: c.arrived });
+    }
+    await breathe();
+  }
+  growing.add(c.collect(true));
+  const bytes = growing.bytes();
+  const hash = c.hash;
+  tellLoaded(growing.look(true), (loaded) => ({ kind: 'over', id, loaded, hash, bytes, cost: computed / 1000 }));
+}
+
+function tellLoaded(recording: Recording, report: (loaded: Loaded) => EngineReport): void {
+  const loaded = { recording, front: findFront(recording), falls: findFalls(recording) };
+  tell(report(loaded), buffersOf(loaded));
+}
