@@ -1,6 +1,6 @@
 #include "base/crew.h"
 
-#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+#if defined(__wasm__)  // the page runs it in a worker, which is one thread
 
 namespace topple {
 

@@ -38,6 +38,8 @@ const kLookEvery = 250;
 
 let engine: Engine | null = null;
 let running = -1;
+/** Runs come one after the other. */
+let queue: Promise<void> = Promise.resolve();
 
 const tell = (report: EngineReport, transfer: Transferable[] = []): void => self.postMessage(report, { transfer });
 
@@ -45,7 +47,11 @@ self.onmessage = (message: MessageEvent<EngineOrder>) => {
   const order = message.data;
   if (order.kind === 'load') void load(order.url);
   else if (order.kind === 'stop') running = running === order.id ? -1 : running;
-  else void attempt(order.id, () => (order.kind === 'read' ? read(order.id, order.source) : run(order.id, order.source)));
+  else if (order.kind === 'read') void attempt(order.id, () => read(order.id, order.source));
+  else {
+    running = -1;
+    queue = queue.then(() => attempt(order.id, () => run(order.id, order.source)));
+  }
 };
 
 async function load(url: string): Promise<void> {
