@@ -143,7 +143,8 @@ TOPPLE_EXPORT(topple_answer_size) std::size_t topple_answer_size() { return desk
 /// Reads a layout that may still have overlaps. Overrides are `key=value`, a line each. True: the answer is JSON (counts, length, doubts)
 /// and the bytes are its scene and bricks as the beginning of a recording. False: the answer is every problem, a line each.
 TOPPLE_EXPORT(topple_read)
-bool topple_read(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides, std::size_t overrides_size) {
+bool topple_read(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides,
+                 std::size_t overrides_size) {
   topple::Desk& all = desk();
   const std::vector<std::string> settings = topple::lines_of({overrides, overrides_size});
   topple::Result<topple::Layout> layout = topple::read_draft({text, size}, {name, name_size}, settings);
@@ -157,7 +158,8 @@ bool topple_read(const char* text, std::size_t size, const char* name, std::size
 
 /// Begins a run of a layout, overlaps refused. False: the answer says why not. True: the bytes begin its recording.
 TOPPLE_EXPORT(topple_start)
-bool topple_start(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides, std::size_t overrides_size) {
+bool topple_start(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides,
+                  std::size_t overrides_size) {
   topple::Desk& all = desk();
   all.writer.reset();
   all.simulation.reset();
