@@ -121,16 +121,11 @@ void Front::note_rest(int place, double now) {
     member.landed = true;
     events_.push_back(plain_event(EventKind::landed, now, body.id, by));
   }
-  const BrickId next = next_of_part(body.id);
+  const BrickId next = next_of_part(world_.layout, body.id);
   if (fallen && by == kNoBrick && next != kNoBrick && world_.phase[static_cast<std::size_t>(next)] == Phase::standing) {
     events_.push_back(plain_event(EventKind::missed, now, body.id, next));
   }
   events_.push_back(plain_event(EventKind::rested, now, body.id, by));
-}
-
-BrickId Front::next_of_part(BrickId brick) const {
-  const Part* part = world_.layout.part_of(brick);
-  return part != nullptr && part->line && brick + 1 < part->first + part->count ? brick + 1 : kNoBrick;
 }
 
 void Front::begin_push(const Push& push, double now) {
@@ -192,11 +187,49 @@ void Front::take_blow() {
   for (const ContactRow& row : solver_.rows()) touches_[static_cast<std::size_t>(row.touch)].impulse += row.n;
 }
 
-void Front::collect_contacts() {
+void Front::add_to(Hash& hash) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!members_[i].moving && !members_[i].just_rested) continue;
+    const Body& body = bodies_[i];
+    hash.add(static_cast<std::uint64_t>(body.id));
+    for (const Vec3* v : {&body.position, &body.velocity, &body.angular_velocity}) {
+      hash.add(v->x);
+      hash.add(v->y);
+      hash.add(v->z);
+    }
+    hash.add(body.orientation.w);
+    hash.add(body.orientation.x);
+    hash.add(body.orientation.y);
+    hash.add(body.orientation.z);
+  }
+}
+
+BrickId Front::not_finite() const {
+  for (const Body& body : bodies_) {
+    const Vec3 sum = body.position + body.velocity + body.angular_velocity;
+    const Quat& q = body.orientation;
+    if (!std::isfinite(sum.x + sum.y + sum.z) || !std::isfinite(q.w + q.x + q.y + q.z)) return body.id;
+  }
+  return kNoBrick;
+}
+
+void Front::read(Frame& out) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!members_[i].moving && !members_[i].just_rested) continue;
+    const Body& body = bodies_[i];
+    out.free.push_back({body.id, world_.phase[static_cast<std::size_t>(body.id)], {body.position, body.orientation}, body.velocity,
+                        body.angular_velocity});
+    if (!members_[i].moving) continue;
+    out.energy.kinetic += kinetic_energy(body);
+    out.energy.potential += potential_energy(world_, body.id, body.position.z);
+  }
+}
+
+void Front::read(std::vector<Contact>& out) const {
   for (const ContactRow& row : solver_.rows()) {
     const Body& a = bodies_[static_cast<std::size_t>(row.a)];
     const BrickId b = row.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(row.b)].id;
-    contacts_.push_back({a.id, b, a.position + row.arm_a, row.normal, row.n0 + row.n});
+    out.push_back({a.id, b, a.position + row.arm_a, row.normal, row.n0 + row.n});
   }
 }
 

@@ -31,7 +31,6 @@ void inherit(const Touch& before, Touch& now) {
 
 void Front::advance(double begin, std::span<const PushMoment> moments) {
   events_.clear();
-  contacts_.clear();
   if (rested_) drop_idle();
   rested_ = false;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -66,7 +65,7 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
       now = until;
     }
   }
-  collect_contacts();
+  retire(end);
 }
 
 // One part of the step, of at most `time`; returns how long it was.

@@ -47,6 +47,7 @@ class ImpulseSolver {
   bool restore(std::span<const Touch> touches);
 
   std::span<ContactRow> rows() { return rows_; }
+  std::span<const ContactRow> rows() const { return rows_; }
 
  private:
   void prepare(std::span<const Body> bodies, std::span<const Touch> touches);

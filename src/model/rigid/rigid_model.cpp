@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "model/rigid/plane_front.h"
 #include "model/rigid/wavefront.h"
 
 namespace topple::rigid {
 
 namespace {
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 class RigidModel final : public Model {
  public:
@@ -29,13 +28,15 @@ class RigidModel final : public Model {
   double time_step() const override { return step_; }
   void read(Frame& out) const override;
   std::span<const Event> events() const override { return events_; }
-  std::span<const Contact> contacts() const override { return contacts_; }
+  std::span<const Contact> contacts() const override;
   std::uint64_t hash() const override { return hash_.value(); }
 
  private:
   void plan_pushes();
   void begin_pushes(double end);
-  Front& front_of(BrickId brick);
+  Wave& front_of(BrickId brick);
+  void join(std::size_t number);
+  Front& general(std::size_t number);
   void join_fronts();
   void advance_fronts(double begin);
   void gather();
@@ -48,14 +49,9 @@ class RigidModel final : public Model {
   std::size_t next_moment_ = 0;
   std::size_t last_moment_ = 0;
   std::vector<PushMoment> now_;
-  std::vector<std::unique_ptr<Front>> fronts_;  // By number; null where a front has been taken over.
+  std::vector<std::unique_ptr<Wave>> fronts_;  // By number; null where a front has been taken over.
   std::vector<Event> events_;
-  std::vector<Contact> contacts_;
-  struct Mover {
-    BrickId brick = kNoBrick;
-    const Body* body = nullptr;
-  };
-  std::vector<Mover> movers_;
+  mutable std::vector<Contact> contacts_;  // Filled when somebody asks.
   Hash hash_;
 };
 
@@ -67,17 +63,14 @@ void RigidModel::plan_pushes() {
   std::stable_sort(moments_.begin(), moments_.end(), [](const PushMoment& l, const PushMoment& r) { return l.time < r.time; });
 }
 
-Front& RigidModel::front_of(BrickId brick) {
-  std::int32_t& number = world_.front[static_cast<std::size_t>(brick)];
-  if (number == kNoFront) {
-    const auto free = std::find(fronts_.begin(), fronts_.end(), nullptr);
-    const auto at = static_cast<std::int32_t>(free - fronts_.begin());
-    if (free == fronts_.end()) fronts_.emplace_back();
-    fronts_[static_cast<std::size_t>(at)] = std::make_unique<Front>(world_, at);
-    fronts_[static_cast<std::size_t>(at)]->wake(brick, 0.0);
-    return *fronts_[static_cast<std::size_t>(at)];
-  }
-  return *fronts_[static_cast<std::size_t>(number)];
+Wave& RigidModel::front_of(BrickId brick) {
+  const std::int32_t number = world_.front[static_cast<std::size_t>(brick)];
+  if (number != kNoFront) return *fronts_[static_cast<std::size_t>(number)];
+  const auto free = std::find(fronts_.begin(), fronts_.end(), nullptr);
+  const auto at = static_cast<std::size_t>(free - fronts_.begin());
+  if (free == fronts_.end()) fronts_.emplace_back();
+  fronts_[at] = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(at), brick);
+  return *fronts_[at];
 }
 
 // Bricks that are pushed in this step belong to a front from its beginning.
@@ -89,22 +82,37 @@ void RigidModel::begin_pushes(double end) {
   }
 }
 
+// A front that can no longer stay in its plane goes on with six degrees of freedom.
+Front& RigidModel::general(std::size_t number) {
+  if (auto* plane = dynamic_cast<PlaneFront*>(fronts_[number].get())) {
+    std::vector<HandedBrick> bricks;
+    std::vector<ActiveForce> forces;
+    plane->hand_over(bricks, forces);
+    auto front = std::make_unique<Front>(world_, static_cast<std::int32_t>(number));
+    front->adopt(bricks, forces);
+    fronts_[number] = std::move(front);
+  }
+  return static_cast<Front&>(*fronts_[number]);
+}
+
+// Takes over every front within reach of this one, and of those in turn.
+void RigidModel::join(std::size_t number) {
+  std::vector<std::int32_t> met(fronts_[number]->met().begin(), fronts_[number]->met().end());
+  Front& front = general(number);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    const auto other = static_cast<std::size_t>(met[i]);
+    if (other == number || fronts_[other] == nullptr) continue;
+    front.absorb(general(other));
+    fronts_[other].reset();
+    met.insert(met.end(), front.met().begin(), front.met().end());
+  }
+  front.clear_met();
+}
+
 // Fronts within each other's reach become one.
 void RigidModel::join_fronts() {
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
-    bool again = fronts_[i] != nullptr;
-    while (again) {
-      again = false;
-      for (const std::int32_t met : fronts_[i]->met()) {
-        const auto other = static_cast<std::size_t>(met);
-        if (other == i || fronts_[other] == nullptr) continue;
-        fronts_[i]->absorb(*fronts_[other]);
-        fronts_[other].reset();
-        again = true;
-        break;
-      }
-    }
-    if (fronts_[i] != nullptr) fronts_[i]->clear_met();
+    if (fronts_[i] != nullptr && fronts_[i]->must_join()) join(i);
   }
 }
 
@@ -117,7 +125,6 @@ void RigidModel::advance_fronts(double begin) {
       if (world_.front[brick] >= 0 && fronts_[static_cast<std::size_t>(world_.front[brick])] == front) now_.push_back(moments_[i]);
     }
     front->advance(begin, now_);
-    front->retire(begin + step_);
   }
   next_moment_ = last_moment_;
 }
@@ -135,43 +142,22 @@ Status RigidModel::step() {
 
 void RigidModel::gather() {
   events_.clear();
-  contacts_.clear();
-  movers_.clear();
-  for (auto& front : fronts_) {
+  for (const auto& front : fronts_) {
     if (front == nullptr) continue;
     events_.insert(events_.end(), front->events().begin(), front->events().end());
-    contacts_.insert(contacts_.end(), front->contacts().begin(), front->contacts().end());
-    for (std::size_t i = 0; i < front->bodies().size(); ++i) {
-      if (front->members()[i].moving || front->members()[i].just_rested) movers_.push_back({front->bodies()[i].id, &front->bodies()[i]});
-    }
+    front->add_to(hash_);
   }
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& l, const Event& r) { return l.time != r.time ? l.time < r.time : l.brick < r.brick; });
-  std::sort(movers_.begin(), movers_.end(), [](const Mover& l, const Mover& r) { return l.brick < r.brick; });
-  for (const Mover& mover : movers_) {
-    const Body& body = *mover.body;
-    hash_.add(static_cast<std::uint64_t>(mover.brick));
-    for (const Vec3* v : {&body.position, &body.velocity, &body.angular_velocity}) {
-      hash_.add(v->x);
-      hash_.add(v->y);
-      hash_.add(v->z);
-    }
-    hash_.add(body.orientation.w);
-    hash_.add(body.orientation.x);
-    hash_.add(body.orientation.y);
-    hash_.add(body.orientation.z);
-  }
 }
 
 Status RigidModel::check() const {
   bool moving = false;
-  for (const Mover& mover : movers_) {
-    const Body& body = *mover.body;
-    const double w = body.orientation.w + body.orientation.x + body.orientation.y + body.orientation.z;
-    if (!finite(body.position) || !finite(body.velocity) || !finite(body.angular_velocity) || !std::isfinite(w)) {
-      return {Progress::not_finite, mover.brick};
-    }
-    moving = moving || body.inverse_mass > 0.0;
+  for (const auto& front : fronts_) {
+    if (front == nullptr) continue;
+    const BrickId brick = front->not_finite();
+    if (brick != kNoBrick) return {Progress::not_finite, brick};
+    moving = moving || !front->at_rest();
   }
   if (!moving && next_moment_ == moments_.size()) return {Progress::at_rest, kNoBrick};
   return {};
@@ -182,22 +168,19 @@ void RigidModel::read(Frame& out) const {
   out.hinged.clear();
   out.free.clear();
   out.kinks.clear();
-  Energy energy;
-  energy.potential = world_.resting_energy;
-  energy.push_work = world_.push_work;
-  for (const Mover& mover : movers_) {
-    const Body& body = *mover.body;
-    out.free.push_back({mover.brick,
-                        world_.phase[static_cast<std::size_t>(mover.brick)],
-                        {body.position, body.orientation},
-                        body.velocity,
-                        body.angular_velocity});
-    if (body.inverse_mass <= 0.0) continue;
-    energy.kinetic += kinetic_energy(body);
-    const double mass = world_.layout.kinds[body.kind].mass;
-    energy.potential += mass * world_.gravity * (body.position.z - standing_pose(world_.layout, mover.brick).position.z);
+  out.energy = {.kinetic = 0.0, .potential = world_.resting_energy, .push_work = world_.push_work};
+  for (const auto& front : fronts_) {
+    if (front != nullptr) front->read(out);
   }
-  out.energy = energy;
+  std::sort(out.free.begin(), out.free.end(), [](const FreeMotion& l, const FreeMotion& r) { return l.brick < r.brick; });
+}
+
+std::span<const Contact> RigidModel::contacts() const {
+  contacts_.clear();
+  for (const auto& front : fronts_) {
+    if (front != nullptr) front->read(contacts_);
+  }
+  return contacts_;
 }
 
 }  // namespace

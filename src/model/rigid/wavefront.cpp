@@ -20,19 +20,6 @@ double displacement(const Body& body, const Vec3& position, const Quat& orientat
 
 }  // namespace
 
-World::World(const Layout& source) : layout(source), neighbours(source), gravity(source.gravity) {
-  const std::size_t count = source.bricks.size();
-  phase.assign(count, Phase::standing);
-  arrived.assign(count, 0);
-  struck.assign(count, 0);
-  front.assign(count, kNoFront);
-  place.assign(count, 0);
-  smallest = std::numeric_limits<double>::infinity();
-  for (const BrickKind& kind : source.kinds) smallest = std::min(smallest, std::max({kind.height, kind.width, kind.thickness}));
-  pose.reserve(count);
-  for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing_pose(source, brick));
-}
-
 int Front::place_of(BrickId brick) const {
   const auto at = static_cast<std::size_t>(brick);
   if (world_.front[at] == number_) return world_.place[at];
@@ -93,14 +80,17 @@ void Front::wake(BrickId brick, double /*time*/) {
   const auto at = static_cast<std::size_t>(brick);
   if (world_.phase[at] == Phase::resting) {
     const Body& body = bodies_[static_cast<std::size_t>(place)];
-    world_.resting_energy -=
-        world_.gravity * world_.layout.kinds[body.kind].mass * (body.position.z - standing_pose(world_.layout, brick).position.z);
+    world_.resting_energy -= potential_energy(world_, brick, body.position.z);
   }
   world_.phase[at] = Phase::falling;
   set_moving(place);
   list_neighbours(place);
   order_touches();
-  // What stands on it or leans on it wakes when it has gone.
+  mark_borne_by(place);
+}
+
+// What stands on a brick that begins to move, or leans on it, wakes when it has gone.
+void Front::mark_borne_by(int place) {
   const Body& body = bodies_[static_cast<std::size_t>(place)];
   for (Touch& touch : touches_) {
     if (touch.b == kFloor || (touch.a != place && touch.b != place)) continue;
@@ -239,6 +229,7 @@ void Front::retire(double time) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Member& member = members_[i];
     Body& body = bodies_[i];
+    member.just_rested = false;
     if (!member.moving) continue;
     // How far its farthest corner would go with this speed and this acceleration [m].
     const double horizon = limits.horizon * member.time_scale;
@@ -256,8 +247,7 @@ void Front::retire(double time) {
     world_.neighbours.moved(body.id, member.listed_at, body.position);
     world_.pose[id] = {body.position, body.orientation};
     world_.phase[id] = Phase::resting;
-    const double mass = world_.layout.kinds[body.kind].mass;
-    world_.resting_energy += world_.gravity * mass * (body.position.z - standing_pose(world_.layout, body.id).position.z);
+    world_.resting_energy += potential_energy(world_, body.id, body.position.z);
     note_rest(static_cast<int>(i), time);
     body.velocity = {};
     body.angular_velocity = {};
@@ -272,6 +262,27 @@ void Front::retire(double time) {
     }
   }
   rested_ = rested_ || any;
+}
+
+void Front::adopt(std::span<const HandedBrick> bricks, std::span<const ActiveForce> forces) {
+  for (const HandedBrick& handed : bricks) {
+    // It joins where it is now, not where it last stood still.
+    world_.pose[static_cast<std::size_t>(handed.brick)] = handed.pose;
+    const int place = add(handed.brick);
+    set_moving(place);
+    Body& body = bodies_[static_cast<std::size_t>(place)];
+    body.velocity = handed.velocity;
+    body.angular_velocity = handed.angular_velocity;
+    refresh(body);
+    Member& member = members_[static_cast<std::size_t>(place)];
+    member.quiet = handed.quiet;
+    member.pushed = handed.pushed;
+    member.landed = handed.landed;
+  }
+  for (const HandedBrick& handed : bricks) list_neighbours(place_of(handed.brick));
+  for (const HandedBrick& handed : bricks) mark_borne_by(place_of(handed.brick));
+  forces_.insert(forces_.end(), forces.begin(), forces.end());
+  order_touches();
 }
 
 void Front::absorb(Front& other) {
@@ -309,7 +320,6 @@ void Front::absorb(Front& other) {
   moving_ += other.moving_;
   forces_.insert(forces_.end(), other.forces_.begin(), other.forces_.end());
   events_.insert(events_.end(), other.events_.begin(), other.events_.end());
-  contacts_.insert(contacts_.end(), other.contacts_.begin(), other.contacts_.end());
   for (const std::int32_t number : other.met_) {
     if (number != number_ && !has_front(number)) met_.push_back(number);
   }

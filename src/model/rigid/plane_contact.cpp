@@ -1,0 +1,129 @@
+#include "model/rigid/plane_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/trigonometry.h"
+
+namespace topple::rigid {
+
+namespace {
+
+struct Corner {
+  double x, z;
+  std::uint8_t feature;
+};
+
+Corner corner_of(const PlaneBox& box, unsigned which) {
+  const double along = (which & 1U) != 0 ? box.half_along : -box.half_along;
+  const double up = (which & 2U) != 0 ? box.half_up : -box.half_up;
+  return {box.place.x + along * box.cosine + up * box.sine, box.place.z - along * box.sine + up * box.cosine,
+          static_cast<std::uint8_t>(which)};
+}
+
+// Clips the side of `other` that looks at a face of `base` by the two sides of that face. `x`, `z`: the face's outward normal; `along`:
+// whether it is the face at the end of the box's own axis along the row.
+void side_points(const PlaneBox& base, const PlaneBox& other, bool along, double x, double z, double margin, PlaneManifold& out) {
+  // The side of `other` that looks most against the normal.
+  const double u = x * other.cosine - z * other.sine, w = x * other.sine + z * other.cosine;
+  unsigned first = 0, second = 0;
+  if (std::abs(u) > std::abs(w)) {
+    first = u > 0.0 ? 0U : 1U;
+    second = first + 2U;
+  } else {
+    first = w > 0.0 ? 0U : 2U;
+    second = first + 1U;
+  }
+  const std::uint8_t of_base = out.face_of_a ? 0 : 4, of_other = out.face_of_a ? 4 : 0;
+  std::array<Corner, 2> ends = {corner_of(other, first), corner_of(other, second)};
+  // The tangent is the base's other axis; a hair's breadth wider, so that equal sides keep their corners.
+  const double tx = along ? base.sine : base.cosine, tz = along ? base.cosine : -base.sine;
+  const double half = along ? base.half_up : base.half_along;
+  const double limit = half + 1e-7 * (base.half_along + base.half_up);
+  std::array<double, 2> t{};
+  for (std::size_t i = 0; i < 2; ++i) t[i] = (ends[i].x - base.place.x) * tx + (ends[i].z - base.place.z) * tz;
+  out.count = 0;
+  if ((t[0] > limit && t[1] > limit) || (t[0] < -limit && t[1] < -limit)) return;
+  const double depth = along ? base.half_along : base.half_up;
+  const double normal_side = along ? x * base.cosine - z * base.sine : x * base.sine + z * base.cosine;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Corner end = ends[i];
+    std::uint8_t feature = of_other + end.feature;
+    if (std::abs(t[i]) > limit) {
+      const double at = t[i] > 0.0 ? half : -half;
+      const double share = (at - t[i]) / (t[1 - i] - t[i]);
+      end.x += share * (ends[1 - i].x - end.x);
+      end.z += share * (ends[1 - i].z - end.z);
+      const unsigned face_end = along ? (normal_side > 0.0 ? 1U : 0U) : (normal_side > 0.0 ? 2U : 0U);
+      const unsigned side_end = t[i] > 0.0 ? (along ? 2U : 1U) : 0U;
+      feature = static_cast<std::uint8_t>(of_base + face_end + side_end);
+    }
+    const double separation = (end.x - base.place.x) * x + (end.z - base.place.z) * z - depth;
+    out.parted = i == 0 ? separation : std::min(out.parted, separation);
+    if (separation > margin) continue;
+    out.points[static_cast<std::size_t>(out.count++)] = {end.x, end.z, separation, feature};
+  }
+}
+
+}  // namespace
+
+void set_turn(PlaneBox& box) {
+  const SinCos turn = sin_cos(box.place.turn);
+  box.sine = turn.sin;
+  box.cosine = turn.cos;
+}
+
+void touch_floor(const PlaneBox& a, double margin, PlaneManifold& out) {
+  out.normal_x = 0.0;
+  out.normal_z = 1.0;
+  out.face_of_a = false;
+  out.count = 0;
+  const double reach = std::abs(a.sine) * a.half_along + std::abs(a.cosine) * a.half_up;
+  if (a.place.z - reach > margin) return;
+  // Of the two ends of each axis the lower one; the third corner is the lower of the two that are left.
+  const unsigned lowest = (a.sine < 0.0 ? 0U : 1U) + (a.cosine > 0.0 ? 0U : 2U);
+  const bool along = std::abs(a.sine) * a.half_along < std::abs(a.cosine) * a.half_up;
+  const unsigned next = lowest ^ (along ? 1U : 2U);
+  for (const unsigned which : {std::min(lowest, next), std::max(lowest, next)}) {
+    const Corner corner = corner_of(a, which);
+    if (corner.z > margin) continue;
+    out.points[static_cast<std::size_t>(out.count++)] = {corner.x, corner.z, corner.z, corner.feature};
+  }
+}
+
+void touch_boxes(const PlaneBox& a, const PlaneBox& b, double margin, PlaneManifold& out) {
+  const double x = b.place.x - a.place.x, z = b.place.z - a.place.z;
+  const double same = std::abs(a.cosine * b.cosine + a.sine * b.sine), other = std::abs(a.sine * b.cosine - a.cosine * b.sine);
+  const std::array<double, 4> apart = {x * a.cosine - z * a.sine, x * a.sine + z * a.cosine, x * b.cosine - z * b.sine,
+                                       x * b.sine + z * b.cosine};
+  // Separating axes [Gottschalk1996], of which a rectangle has two.
+  const std::array<double, 4> separation = {std::abs(apart[0]) - a.half_along - same * b.half_along - other * b.half_up,
+                                            std::abs(apart[1]) - a.half_up - other * b.half_along - same * b.half_up,
+                                            std::abs(apart[2]) - b.half_along - same * a.half_along - other * a.half_up,
+                                            std::abs(apart[3]) - b.half_up - other * a.half_along - same * a.half_up};
+  // A face is kept unless another one is clearly better.
+  const double kept = 2e-3 * std::min(std::min(a.half_along, a.half_up), std::min(b.half_along, b.half_up));
+  std::size_t best = 0;
+  double best_score = -1e300;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double score = separation[k] + (static_cast<int>(k) == out.axis ? kept : 0.0);
+    if (score > best_score) {
+      best_score = score;
+      best = k;
+    }
+  }
+  out.axis = static_cast<std::int8_t>(best);
+  out.count = 0;
+  out.parted = separation[best];
+  out.face_of_a = best < 2;
+  const PlaneBox& base = out.face_of_a ? a : b;
+  const bool along = best % 2 == 0;
+  const double side = (apart[best] > 0.0) == out.face_of_a ? 1.0 : -1.0;
+  const double nx = side * (along ? base.cosine : base.sine), nz = side * (along ? -base.sine : base.cosine);
+  out.normal_x = out.face_of_a ? -nx : nx;
+  out.normal_z = out.face_of_a ? -nz : nz;
+  if (separation[best] > margin) return;
+  side_points(base, out.face_of_a ? b : a, along, nx, nz, margin, out);
+}
+
+}  // namespace topple::rigid

@@ -1,0 +1,206 @@
+// What happens inside a step of a plane front: pushes, hits, arrivals, landings, rests; and what others read of it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/trigonometry.h"
+#include "model/rigid/plane_front.h"
+
+namespace topple::rigid {
+
+namespace {
+
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+Event plain_event(EventKind kind, double time, BrickId brick, BrickId by) {
+  return {.time = time,
+          .kind = kind,
+          .brick = brick,
+          .by = by,
+          .force = kNotANumber,
+          .impulse = kNotANumber,
+          .point = {kNotANumber, kNotANumber, kNotANumber}};
+}
+
+double kinetic_energy(const PlaneBrick& brick) {
+  const PlaneVec& v = brick.velocity;
+  return 0.5 * (brick.mass * (v.x * v.x + v.z * v.z) + brick.inertia * v.turn * v.turn);
+}
+
+}  // namespace
+
+void PlaneFront::note_arrivals(double begin, double time, double whole) {
+  for (const PlaneBrick& brick : bricks_) {
+    if (!brick.moving) continue;
+    const double rate = brick.velocity.turn, gain = (brick.middle.turn - brick.velocity.turn) / whole;
+    const auto turn_at = [&](double t) { return brick.box.place.turn + t * (rate + t * gain); };
+    if (std::abs(turn_at(time)) < kArrivalTilt) continue;
+    std::uint8_t& arrived = world_.arrived[static_cast<std::size_t>(brick.id)];
+    if (arrived != 0) continue;
+    arrived = 1;
+    double low = 0.0, high = time;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (low + high);
+      (std::abs(turn_at(middle)) < kArrivalTilt ? low : high) = middle;
+    }
+    events_.push_back(plain_event(EventKind::arrived, begin + high, brick.id, kNoBrick));
+  }
+}
+
+void PlaneFront::note_struck(double now) {
+  for (const Struck& struck : struck_now_) {
+    Event event = plain_event(EventKind::struck, now, struck.brick, struck.by);
+    double impulse = 0.0, x = 0.0, z = 0.0, middle_x = 0.0, middle_z = 0.0;
+    int count = 0;
+    for (const PlaneRow& row : rows_) {
+      const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+      if (touch.b < 0) continue;
+      const BrickId a = bricks_[static_cast<std::size_t>(touch.a)].id, b = bricks_[static_cast<std::size_t>(touch.b)].id;
+      if (std::min(a, b) != std::min(struck.brick, struck.by) || std::max(a, b) != std::max(struck.brick, struck.by)) continue;
+      const PlanePoint& point = touch.now.points[static_cast<std::size_t>(row.point)];
+      impulse += row.normal;
+      x += row.normal * point.x;
+      z += row.normal * point.z;
+      middle_x += point.x;
+      middle_z += point.z;
+      ++count;
+    }
+    event.impulse = impulse;
+    if (count > 0) event.point = impulse > 0.0 ? in_world(x / impulse, z / impulse) : in_world(middle_x / count, middle_z / count);
+    events_.push_back(event);
+  }
+}
+
+void PlaneFront::note_landed(double now) {
+  for (const PlaneTouch& touch : touches_) {
+    if (touch.b >= 0) continue;
+    PlaneBrick& brick = bricks_[static_cast<std::size_t>(touch.a)];
+    if (brick.landed) continue;
+    for (int k = 0; k < touch.now.count; ++k) {
+      // A corner of what was its top.
+      if (!touch.memory[static_cast<std::size_t>(k)].fresh || (touch.now.points[static_cast<std::size_t>(k)].feature & 2U) == 0) continue;
+      brick.landed = true;
+      Event event = plain_event(EventKind::landed, now, brick.id, kNoBrick);
+      event.point = in_world(touch.now.points[static_cast<std::size_t>(k)].x, touch.now.points[static_cast<std::size_t>(k)].z);
+      events_.push_back(event);
+      break;
+    }
+  }
+}
+
+// The brick that carries most of another one, or none.
+BrickId PlaneFront::supporter(int place) const {
+  BrickId by = kNoBrick;
+  double most = 0.0;
+  for (const PlaneTouch& touch : touches_) {
+    if (touch.b < 0 || (touch.a != place && touch.b != place)) continue;
+    const double lift = (touch.a == place ? 1.0 : -1.0) * touch.now.normal_z * touch.impulse;
+    if (lift <= most) continue;
+    most = lift;
+    by = bricks_[static_cast<std::size_t>(touch.a == place ? touch.b : touch.a)].id;
+  }
+  return by;
+}
+
+void PlaneFront::note_rest(int place, double now) {
+  PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+  const Extents size{2.0 * brick.box.half_along, 0.0, 2.0 * brick.box.half_up};
+  const bool fallen = std::abs(brick.box.place.turn) > tip_angle(size);
+  const BrickId by = supporter(place);
+  if (fallen && !brick.landed) {
+    brick.landed = true;
+    events_.push_back(plain_event(EventKind::landed, now, brick.id, by));
+  }
+  const BrickId next = next_of_part(world_.layout, brick.id);
+  if (fallen && by == kNoBrick && next != kNoBrick && world_.phase[static_cast<std::size_t>(next)] == Phase::standing) {
+    events_.push_back(plain_event(EventKind::missed, now, brick.id, next));
+  }
+  events_.push_back(plain_event(EventKind::rested, now, brick.id, by));
+}
+
+void PlaneFront::begin_push(const Push& push, double now) {
+  const int place = place_of(push.brick);
+  PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+  const SinCos turn = sin_cos(world_.layout.bricks[static_cast<std::size_t>(push.brick)].heading);
+  const double way = turn.cos * plane_.along.x + turn.sin * plane_.along.y > 0.0 ? 1.0 : -1.0;
+  const double along = brick.box.half_along, up = brick.box.half_up;
+  const double before = kinetic_energy(brick);
+  const auto arm = [&brick](double x, double z) {
+    return PlaneVec{x * brick.box.cosine + z * brick.box.sine, z * brick.box.cosine - x * brick.box.sine, 0.0};
+  };
+  Event event = plain_event(EventKind::pushed, now, push.brick, kNoBrick);
+  brick.quiet = 0.0;
+  if (const auto* spin = std::get_if<AngularSpeedPush>(&push.how)) {
+    const PlaneVec toe = arm(way * along, -up);
+    const double speed = way * spin->angular_speed;
+    brick.velocity = {-speed * toe.z, speed * toe.x, speed};
+    world_.push_work += kinetic_energy(brick) - before;
+    for (PlaneTouch& touch : touches_) {
+      if (touch.a == place || touch.b == place) touch.memory = {};
+    }
+  } else if (const auto* force = std::get_if<ForcePush>(&push.how)) {
+    forces_.push_back({push.brick, way * force->force, -way * along, force->height - up, push.at + force->duration});
+    brick.pushed = true;
+    event.force = force->force;
+    const PlaneVec at = arm(-way * along, force->height - up);
+    event.point = in_world(brick.box.place.x + at.x, brick.box.place.z + at.z);
+  } else {
+    const auto& blow = std::get<ImpulsePush>(push.how);
+    const PlaneVec at = arm(-way * along, blow.height - up);
+    const double impulse = way * blow.impulse;
+    const double speed_before = brick.velocity.x + brick.velocity.turn * at.z;
+    brick.velocity.x += impulse / brick.mass;
+    brick.velocity.turn += impulse * at.z / brick.inertia;
+    this->blow(true);
+    const PlaneBrick& pushed = bricks_[static_cast<std::size_t>(place)];
+    // Work of a blow: the impulse times the mean velocity of its point, before and after.
+    world_.push_work += 0.5 * impulse * (speed_before + pushed.velocity.x + pushed.velocity.turn * at.z);
+    event.impulse = blow.impulse;
+    event.point = in_world(pushed.box.place.x + at.x, pushed.box.place.z + at.z);
+  }
+  events_.push_back(event);
+}
+
+void PlaneFront::add_to(Hash& hash) const {
+  for (const PlaneBrick& brick : bricks_) {
+    if (!brick.moving && !brick.just_rested) continue;
+    hash.add(static_cast<std::uint64_t>(brick.id));
+    for (const PlaneVec* v : {&brick.box.place, &brick.velocity}) {
+      hash.add(v->x);
+      hash.add(v->z);
+      hash.add(v->turn);
+    }
+  }
+}
+
+BrickId PlaneFront::not_finite() const {
+  for (const PlaneBrick& brick : bricks_) {
+    const PlaneVec sum = brick.box.place + brick.velocity;
+    if (!std::isfinite(sum.x + sum.z + sum.turn)) return brick.id;
+  }
+  return kNoBrick;
+}
+
+void PlaneFront::read(Frame& out) const {
+  for (const PlaneBrick& brick : bricks_) {
+    if (!brick.moving && !brick.just_rested) continue;
+    const PlaneVec& v = brick.velocity;
+    out.free.push_back({brick.id, world_.phase[static_cast<std::size_t>(brick.id)], pose_of(brick),
+                        v.x * plane_.along + Vec3{0.0, 0.0, v.z}, v.turn * plane_.across});
+    if (!brick.moving) continue;
+    out.energy.kinetic += kinetic_energy(brick);
+    out.energy.potential += potential_energy(world_, brick.id, brick.box.place.z);
+  }
+}
+
+void PlaneFront::read(std::vector<Contact>& out) const {
+  for (const PlaneRow& row : rows_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    const PlanePoint& point = touch.now.points[static_cast<std::size_t>(row.point)];
+    const BrickId b = touch.b < 0 ? kNoBrick : bricks_[static_cast<std::size_t>(touch.b)].id;
+    out.push_back({bricks_[static_cast<std::size_t>(touch.a)].id, b, in_world(point.x, point.z),
+                   touch.now.normal_x * plane_.along + Vec3{0.0, 0.0, touch.now.normal_z}, row.normal});
+  }
+}
+
+}  // namespace topple::rigid

@@ -1,0 +1,327 @@
+// Which bricks a plane front is made of: lists of neighbours, waking, resting.
+#include "model/rigid/plane_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/trigonometry.h"
+
+namespace topple::rigid {
+
+namespace {
+
+// Off the plane by less than this, as a fraction of the thickness or in radians, a brick is in it: rounding of places and headings.
+constexpr double kInPlane = 1e-7;
+
+// How far the farthest corner has moved [m].
+double displacement(const PlaneBrick& brick, const PlaneVec& from) {
+  const PlaneVec moved = brick.box.place - from;
+  return std::sqrt(moved.x * moved.x + moved.z * moved.z) + brick.radius * std::abs(moved.turn);
+}
+
+}  // namespace
+
+PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(world, number) {
+  const Brick& brick = world.layout.bricks[static_cast<std::size_t>(first)];
+  const SinCos turn = sin_cos(brick.heading);
+  plane_ = {brick.foot, {turn.cos, turn.sin, 0.0}, {-turn.sin, turn.cos, 0.0}};
+}
+
+int PlaneFront::place_of(BrickId brick) const {
+  const auto at = static_cast<std::size_t>(brick);
+  return world_.front[at] == number_ ? world_.place[at] : -1;
+}
+
+Vec3 PlaneFront::in_world(double x, double z) const {
+  return {plane_.origin.x + x * plane_.along.x, plane_.origin.y + x * plane_.along.y, z};
+}
+
+Pose PlaneFront::pose_of(const PlaneBrick& brick) const {
+  const SinCos half = sin_cos(0.5 * brick.box.place.turn);
+  const Quat turn{half.cos, half.sin * plane_.across.x, half.sin * plane_.across.y, 0.0};
+  return {in_world(brick.box.place.x, brick.box.place.z) + brick.lateral * plane_.across, turn * brick.upright};
+}
+
+// Where a brick that does not move is in this plane. `half_width` is how far the bricks of the plane reach to its sides.
+PlaneFront::InPlane PlaneFront::locate(BrickId brick, double half_width) const {
+  const auto at = static_cast<std::size_t>(brick);
+  const Brick& put = world_.layout.bricks[at];
+  const BrickKind& kind = world_.layout.kinds[put.kind];
+  const Pose& pose = world_.pose[at];
+  const Vec3 apart = pose.position - plane_.origin;
+  const double lateral = dot(apart, plane_.across);
+  const double thin = std::min({kind.height, kind.width, kind.thickness});
+  InPlane out;
+  const SinCos heading = sin_cos(put.heading);
+  const bool parallel = std::abs(heading.sin * plane_.along.x - heading.cos * plane_.along.y) < kInPlane;
+  const Quat turned = pose.orientation * conjugate(standing_pose(world_.layout, brick).orientation);
+  const double about = turned.x * plane_.across.x + turned.y * plane_.across.y;
+  const double off = std::abs(turned.x * plane_.along.x + turned.y * plane_.along.y) + std::abs(turned.z);
+  out.lies = parallel && std::abs(lateral) < kInPlane * thin && off < kInPlane;
+  out.place = {dot(apart, plane_.along), pose.position.z, 2.0 * arc_tangent(turned.w < 0.0 ? -about : about, std::abs(turned.w))};
+  if (!out.lies) {
+    const Vec3 half = half_extents(kind);
+    const Vec3 local = rotate(conjugate(pose.orientation), plane_.across);
+    const double reach = std::abs(local.x) * half.x + std::abs(local.y) * half.y + std::abs(local.z) * half.z;
+    out.misses = std::abs(lateral) > half_width + reach + world_.tolerances.margin * thin;
+  }
+  return out;
+}
+
+int PlaneFront::add(BrickId brick, const PlaneVec& place) {
+  const auto at = static_cast<std::size_t>(brick);
+  const Brick& put = world_.layout.bricks[at];
+  const BrickKind& kind = world_.layout.kinds[put.kind];
+  const Extents size = extents(kind, put.stance);
+  PlaneBrick added;
+  added.box.place = place;
+  added.box.half_along = 0.5 * size.along;
+  added.box.half_up = 0.5 * size.up;
+  set_turn(added.box);
+  added.next = added.box;
+  added.mass = kind.mass;
+  added.inertia = kind.mass * (size.along * size.along + size.up * size.up) / 12.0;
+  added.radius = 0.5 * std::sqrt(size.along * size.along + size.up * size.up);
+  added.thin = std::min({kind.height, kind.width, kind.thickness});
+  added.time_scale = std::sqrt(std::max({kind.height, kind.width, kind.thickness}) / world_.gravity);
+  added.upright = standing_pose(world_.layout, brick).orientation;
+  added.lateral = dot(world_.pose[at].position - plane_.origin, plane_.across);
+  added.id = brick;
+  added.kind = put.kind;
+  half_width_ = std::max(half_width_, 0.5 * size.across);
+  const int index = static_cast<int>(bricks_.size());
+  world_.front[at] = number_;
+  world_.place[at] = index;
+  bricks_.push_back(added);
+  return index;
+}
+
+void PlaneFront::wake(BrickId brick, double /*time*/) {
+  int place = place_of(brick);
+  if (place < 0) place = add(brick, locate(brick, 0.0).place);
+  if (bricks_[static_cast<std::size_t>(place)].moving) return;
+  const auto at = static_cast<std::size_t>(brick);
+  if (world_.phase[at] == Phase::resting) world_.resting_energy -= potential_energy(world_, brick, world_.pose[at].position.z);
+  world_.phase[at] = Phase::falling;
+  PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
+  woken.moving = true;
+  woken.quiet = 0.0;
+  woken.listed_at = woken.box.place;
+  ++moving_;
+  planned_for_ = 0.0;
+  PlaneTouch floor;
+  floor.a = place;
+  const Surface& surface = world_.layout.kinds[woken.kind].surface;
+  floor.friction = surface.floor_friction;
+  floor.restitution = surface.floor_restitution;
+  touch_floor(woken.box, world_.tolerances.touching * woken.thin, floor.now);
+  // A brick that has just begun to move stands on what it stood on.
+  for (PlaneMemory& memory : floor.memory) memory.active = true;
+  touches_.push_back(floor);
+  list_neighbours(place);
+  order();
+  mark_borne_by(place_of(brick));
+}
+
+// What stands on a brick that begins to move, or leans on it, wakes when it has gone.
+void PlaneFront::mark_borne_by(int place) {
+  const PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
+  for (PlaneTouch& touch : touches_) {
+    if (touch.b < 0 || (touch.a != place && touch.b != place)) continue;
+    if (bricks_[static_cast<std::size_t>(touch.a == place ? touch.b : touch.a)].moving) continue;
+    touch_boxes(bricks_[static_cast<std::size_t>(touch.a)].box, bricks_[static_cast<std::size_t>(touch.b)].box,
+                world_.tolerances.touching * woken.thin, touch.now);
+    touch.bearing = touch.now.count > 0;
+    for (PlaneMemory& memory : touch.memory) memory = {.active = true};
+    touch.mark = woken.box.place;
+  }
+}
+
+void PlaneFront::list_neighbours(int place) {
+  const BrickId id = bricks_[static_cast<std::size_t>(place)].id;
+  const double radius = 0.5 * norm(2.0 * half_extents(world_.layout.kind_of(id)));
+  bricks_[static_cast<std::size_t>(place)].listed_at = bricks_[static_cast<std::size_t>(place)].box.place;
+  const PlaneVec here = bricks_[static_cast<std::size_t>(place)].box.place;
+  const Vec3 centre = in_world(here.x, here.z);
+  world_.neighbours.near(centre, near_);
+  for (const BrickId other : near_) {
+    if (other == id) continue;
+    int there = place_of(other);
+    if (there < 0) {
+      const double reach = 1.5 * radius + norm(half_extents(world_.layout.kind_of(other)));
+      const Vec3 apart = world_.pose[static_cast<std::size_t>(other)].position - centre;
+      const std::int32_t front = world_.front[static_cast<std::size_t>(other)];
+      // One that moves may be elsewhere than where it stood.
+      if (front == kNoFront && dot(apart, apart) > reach * reach) continue;
+      const InPlane found = locate(other, half_width_);
+      if (found.misses) continue;
+      if (front != kNoFront) {
+        if (std::find(met_.begin(), met_.end(), front) == met_.end()) met_.push_back(front);
+        continue;
+      }
+      if (!found.lies) {
+        leaves_plane_ = true;
+        continue;
+      }
+      there = add(other, found.place);
+    } else {
+      const PlaneVec apart = bricks_[static_cast<std::size_t>(there)].box.place - here;
+      const double reach = 1.5 * radius + bricks_[static_cast<std::size_t>(there)].radius;
+      if (apart.x * apart.x + apart.z * apart.z > reach * reach) continue;
+    }
+    const int a = id < other ? place : there, b = id < other ? there : place;
+    if (std::any_of(touches_.begin(), touches_.end(), [a, b](const PlaneTouch& t) { return t.a == a && t.b == b; })) continue;
+    PlaneTouch touch;
+    touch.a = a;
+    touch.b = b;
+    const SurfacePair surfaces = surface_pair(world_.layout, bricks_[static_cast<std::size_t>(place)].kind,
+                                              bricks_[static_cast<std::size_t>(there)].kind);
+    touch.friction = surfaces.friction;
+    touch.restitution = surfaces.restitution;
+    touches_.push_back(touch);
+    PlaneTouch& listed = touches_.back();
+    touch_boxes(bricks_[static_cast<std::size_t>(a)].box, bricks_[static_cast<std::size_t>(b)].box,
+                world_.tolerances.margin * thinner(listed), listed.now);
+    for (int k = 0; k < listed.now.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      listed.memory[at].active = listed.now.points[at].separation < world_.tolerances.touching * thinner(listed);
+    }
+  }
+}
+
+void PlaneFront::list_those_that_strayed() {
+  bool changed = false;
+  const std::size_t count = bricks_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!bricks_[i].moving) continue;
+    const PlaneVec strayed = bricks_[i].box.place - bricks_[i].listed_at;
+    const double allowed = 0.15 * bricks_[i].radius;
+    if (strayed.x * strayed.x + strayed.z * strayed.z < allowed * allowed) continue;
+    const PlaneVec& before = bricks_[i].listed_at;
+    world_.neighbours.moved(bricks_[i].id, in_world(before.x, before.z), in_world(bricks_[i].box.place.x, bricks_[i].box.place.z));
+    list_neighbours(static_cast<int>(i));
+    changed = true;
+  }
+  if (changed || rested_) {
+    drop_idle();
+    order();
+  }
+  rested_ = false;
+}
+
+// Leaves out pairs of which neither moves, or that have gone out of reach, and then bricks that are in no pair.
+void PlaneFront::drop_idle() {
+  std::erase_if(touches_, [this](const PlaneTouch& touch) {
+    const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
+    if (touch.b < 0) return !a.moving;
+    const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];
+    if (!a.moving && !b.moving) return true;
+    const double reach = 2.0 * (a.radius + b.radius);
+    const PlaneVec apart = a.box.place - b.box.place;
+    return apart.x * apart.x + apart.z * apart.z > reach * reach;
+  });
+  for (PlaneBrick& brick : bricks_) brick.unknown = brick.moving ? 0 : -1;
+  for (const PlaneTouch& touch : touches_) {
+    bricks_[static_cast<std::size_t>(touch.a)].unknown = 0;
+    if (touch.b >= 0) bricks_[static_cast<std::size_t>(touch.b)].unknown = 0;
+  }
+  for (const PlaneBrick& brick : bricks_) {
+    if (brick.unknown < 0) world_.front[static_cast<std::size_t>(brick.id)] = kNoFront;
+  }
+}
+
+// Bricks along the row, so that the system of equations is a chain; touches by brick, its floor first.
+void PlaneFront::order() {
+  renamed_.resize(bricks_.size());
+  std::vector<PlaneBrick> kept;
+  std::vector<int> by_place;
+  for (std::size_t i = 0; i < bricks_.size(); ++i) {
+    if (world_.front[static_cast<std::size_t>(bricks_[i].id)] == number_) by_place.push_back(static_cast<int>(i));
+  }
+  std::sort(by_place.begin(), by_place.end(), [this](int l, int r) {
+    const PlaneBrick& left = bricks_[static_cast<std::size_t>(l)];
+    const PlaneBrick& right = bricks_[static_cast<std::size_t>(r)];
+    return left.box.place.x != right.box.place.x ? left.box.place.x < right.box.place.x : left.id < right.id;
+  });
+  for (const int from : by_place) {
+    renamed_[static_cast<std::size_t>(from)] = static_cast<int>(kept.size());
+    kept.push_back(bricks_[static_cast<std::size_t>(from)]);
+    world_.place[static_cast<std::size_t>(kept.back().id)] = static_cast<int>(kept.size()) - 1;
+  }
+  bricks_.swap(kept);
+  for (PlaneTouch& touch : touches_) {
+    touch.a = renamed_[static_cast<std::size_t>(touch.a)];
+    if (touch.b >= 0) touch.b = renamed_[static_cast<std::size_t>(touch.b)];
+  }
+  std::sort(touches_.begin(), touches_.end(),
+            [](const PlaneTouch& l, const PlaneTouch& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
+}
+
+void PlaneFront::wake_unsupported(double now) {
+  for (bool again = true; again;) {
+    again = false;
+    for (const PlaneTouch& touch : touches_) {
+      if (touch.b < 0 || !touch.bearing) continue;
+      const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
+      const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];
+      if (a.moving == b.moving) continue;
+      const PlaneBrick& still = a.moving ? b : a;
+      if (displacement(a.moving ? a : b, touch.mark) < world_.tolerances.support * still.thin) continue;
+      wake(still.id, now);
+      again = true;
+      break;
+    }
+  }
+}
+
+void PlaneFront::retire(double time) {
+  const Tolerances& limits = world_.tolerances;
+  for (std::size_t i = 0; i < bricks_.size(); ++i) {
+    PlaneBrick& brick = bricks_[i];
+    brick.just_rested = false;
+    if (!brick.moving) continue;
+    // How far its farthest corner would go with this speed and this acceleration [m].
+    const double horizon = limits.horizon * brick.time_scale;
+    const auto corner = [&brick](const PlaneVec& v) { return std::sqrt(v.x * v.x + v.z * v.z) + brick.radius * std::abs(v.turn); };
+    const double gain = corner(brick.velocity - brick.velocity_before) / world_.step;
+    const double ahead = horizon * (corner(brick.velocity) + 0.5 * horizon * gain);
+    brick.quiet = ahead < limits.retire * brick.thin && !brick.pushed ? brick.quiet + world_.step : 0.0;
+    if (brick.quiet < limits.patience * brick.time_scale) continue;
+    rested_ = true;
+    brick.moving = false;
+    brick.just_rested = true;
+    --moving_;
+    const auto id = static_cast<std::size_t>(brick.id);
+    world_.neighbours.moved(brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z));
+    world_.pose[id] = pose_of(brick);
+    world_.phase[id] = Phase::resting;
+    world_.resting_energy += potential_energy(world_, brick.id, brick.box.place.z);
+    note_rest(static_cast<int>(i), time);
+    brick.velocity = {};
+    brick.middle = {};
+    for (PlaneTouch& touch : touches_) {
+      if (touch.b < 0 || (touch.a != static_cast<int>(i) && touch.b != static_cast<int>(i))) continue;
+      touch.bearing = touch.impulse > 0.0;
+      touch.mark = bricks_[static_cast<std::size_t>(touch.a == static_cast<int>(i) ? touch.b : touch.a)].box.place;
+    }
+  }
+}
+
+void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveForce>& forces) {
+  for (const PlaneBrick& brick : bricks_) {
+    world_.front[static_cast<std::size_t>(brick.id)] = kNoFront;
+    if (!brick.moving) continue;
+    bricks.push_back({brick.id, pose_of(brick),
+                      brick.velocity.x * plane_.along + Vec3{0.0, 0.0, brick.velocity.z}, brick.velocity.turn * plane_.across, brick.quiet,
+                      brick.pushed, brick.landed});
+  }
+  for (const Force& force : forces_) {
+    for (const PlaneBrick& brick : bricks_) {
+      if (brick.id != force.brick) continue;
+      const Vec3 local = rotate(conjugate(brick.upright), force.x * plane_.along + Vec3{0.0, 0.0, force.z});
+      forces.push_back({force.brick, force.along * plane_.along, local, force.end});
+    }
+  }
+}
+
+}  // namespace topple::rigid

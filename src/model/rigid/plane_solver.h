@@ -1,0 +1,82 @@
+/// Contact impulses of bricks that move in one plane, all at once: Newton's method on the chain.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "model/rigid/block_envelope.h"
+#include "model/rigid/plane_contact.h"
+
+namespace topple::rigid {
+
+/// What a point's friction does.
+enum class Grip : std::uint8_t { stick, forward, backward };  ///< Stick, or slide along or against the tangent.
+
+/// Within one of these everything is linear.
+struct PointState {
+  bool pressed = true;  ///< Whether the normal impulse is above zero.
+  Grip grip = Grip::stick;
+};
+
+/// One contact point. Velocities of the point are J v of its two bodies; an impulse acts on them by the transpose.
+struct PlaneRow {
+  int a = 0;
+  int b = -1;  ///< -1: the floor or a brick that does not move.
+  int touch = 0;
+  int point = 0;
+  Column<3> normal_a{}, normal_b{};    ///< J of the normal velocity.
+  Column<3> tangent_a{}, tangent_b{};  ///< J of the tangential velocity.
+  double bias = 0.0;                   ///< Added to the normal velocity before it is held at or above zero [m/s].
+  double tangent_bias = 0.0;           ///< [m/s]
+  double normal_stiffness = 0.0;       ///< Impulse per velocity that is left: 1 / compliance [kg].
+  double tangent_stiffness = 0.0;      ///< [kg]
+  double friction = 0.0;
+  double base = 0.0;        ///< Normal impulse that has been applied already and counts for friction [N s].
+  double normal = 0.0;      ///< Impulse found [N s].
+  double tangent = 0.0;     ///< [N s]
+  PointState state;         ///< The guess, then the truth.
+  // Of one round of the convex problem.
+  double lagged_slip = 0.0;   ///< Speed at which it slid before [m/s].
+  double lagged_limit = 0.0;  ///< The limit of its friction, for rows with a base [N s].
+  double slip_normal = 0.0, slip_tangent = 0.0;      ///< Where a search begins [m/s]...
+  double change_normal = 0.0, change_tangent = 0.0;  ///< ...and how it changes over its whole way.
+};
+
+/// A body that moves: its mass, and its velocity before and after.
+struct PlaneUnknown {
+  double mass = 0.0;     ///< [kg]
+  double inertia = 0.0;  ///< [kg m^2]
+  PlaneVec velocity;
+  PlaneVec guess;  ///< Of the velocity after.
+};
+
+/// The law of Coulomb and Signorini, with so little compliance that it is felt only where there are more points than needed: those share
+/// their load in one way. In a plane every point is in one of a few states within which all is linear, so Newton's method ends exactly
+/// when the states that come out are those that went in: mostly after one solution. Where it does not settle, a convex problem is solved
+/// whose friction lets sliding points part as fast as they slide, less what they slid before [Castro2022]: that always succeeds, by
+/// Newton's method with an exact line search; where nothing slides it is the true law, and elsewhere it finds the states.
+class PlaneSolver {
+ public:
+  /// Overwrites the velocities with those after all impulses, and the rows with the impulses.
+  void solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows);
+
+ private:
+  enum class Law : std::uint8_t { true_law, convex };
+  void shape(std::size_t count, std::span<const PlaneRow> rows);
+  bool solve_states(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law);
+  bool settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
+  void solve_convex(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
+  double best_share(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows) const;
+  void add(const PlaneRow& row, const Column<3>& force_a, const Column<3>& force_b, const Column<3>& rate_a, const Column<3>& rate_b,
+           double stiffness);
+  void push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b);
+
+  std::vector<int> first_;
+  BlockEnvelope<3> matrix_;
+  std::vector<Column<3>> velocity_, before_, change_, convex_;
+  std::vector<PlaneRow> kept_;
+};
+
+}  // namespace topple::rigid

@@ -1,0 +1,70 @@
+/// A front as the model sees it: bricks that move together, whatever the way they are computed in.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/hash.h"
+#include "model/rigid/world.h"
+
+namespace topple::rigid {
+
+/// A push that begins, or a force that ends, inside a step.
+struct PushMoment {
+  double time = 0.0;
+  const Push* push = nullptr;  ///< Null: the force of `brick` ends.
+  BrickId brick = kNoBrick;
+};
+
+/// A push at work on one brick.
+struct ActiveForce {
+  BrickId brick = kNoBrick;
+  Vec3 force;        ///< World [N].
+  Vec3 point;        ///< Where it acts, in the brick's axes [m].
+  double end = 0.0;  ///< [s]
+};
+
+/// A brick that moves, as one kind of front hands it over to another.
+struct HandedBrick {
+  BrickId brick = kNoBrick;
+  Pose pose;
+  Vec3 velocity;          ///< [m/s]
+  Vec3 angular_velocity;  ///< World axes [rad/s].
+  double quiet = 0.0;     ///< How long it has hardly moved [s].
+  bool pushed = false;
+  bool landed = false;
+};
+
+class Wave {
+ public:
+  explicit Wave(World& world, std::int32_t number) : world_(world), number_(number) {}
+  Wave(const Wave&) = delete;
+  Wave& operator=(const Wave&) = delete;
+  virtual ~Wave() = default;
+
+  /// One whole step from `begin` [s]; `moments` in the order of time. Bricks that have become quiet go to rest at its end.
+  virtual void advance(double begin, std::span<const PushMoment> moments) = 0;
+  /// Takes a brick out of its rest.
+  virtual void wake(BrickId brick, double time) = 0;
+  virtual bool at_rest() const = 0;
+  virtual void add_to(Hash& hash) const = 0;
+  /// A brick whose numbers are not finite, or none.
+  virtual BrickId not_finite() const = 0;
+  /// Appends the bricks that moved in the last step, and adds their energy.
+  virtual void read(Frame& out) const = 0;
+  virtual void read(std::vector<Contact>& out) const = 0;
+  /// Whether it cannot go on by itself: bricks of another front are within reach, or what it cannot compute.
+  virtual bool must_join() const = 0;
+
+  std::span<const Event> events() const { return events_; }
+  std::span<const std::int32_t> met() const { return met_; }  ///< Other fronts whose bricks are within reach.
+
+ protected:
+  World& world_;
+  std::int32_t number_ = 0;
+  std::vector<Event> events_;
+  std::vector<std::int32_t> met_;
+};
+
+}  // namespace topple::rigid

@@ -1,0 +1,53 @@
+/// What all fronts share: the layout, the tolerances, and where each brick is that does not move.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/rigid/neighbours.h"
+#include "topple/model.h"
+
+namespace topple::rigid {
+
+inline constexpr std::int32_t kNoFront = -1;
+
+/// Pure numbers that scale with a brick: lengths are fractions of the thinnest side, times of sqrt(height / gravity).
+struct Tolerances {
+  double touching = 1e-3;  ///< Closer than this two bricks touch.
+  double located = 3e-4;   ///< Impacts are located to this.
+  double margin = 1e-2;    ///< A contact lasts while it is closer than this.
+  double retire = 5e-3;    ///< A brick rests when it would move by no more than this from now on...
+  double horizon = 1.0;    ///< ...within this time...
+  double patience = 0.2;   ///< ...and has done so for this long.
+  double support = 1e-2;   ///< A resting brick wakes when what it leans on has moved by this.
+  double load = 0.02;      ///< A brick that stands or rests wakes under this share of its weight.
+  double velocity = 1e-5;  ///< The solver stops when velocities change by less, as a fraction of sqrt(gravity x height).
+  int sweeps = 60;
+  int cuts = 16;  ///< Impacts located in one step of one front; more are taken at its end.
+};
+
+struct World {
+  explicit World(const Layout& source);
+
+  const Layout& layout;
+  Neighbours neighbours;
+  std::vector<Phase> phase;
+  std::vector<Pose> pose;             ///< Of each brick that does not move.
+  std::vector<std::uint8_t> arrived;  ///< Whether the wave has been there.
+  std::vector<std::int32_t> front;    ///< The front that a brick belongs to, moving or in its way.
+  std::vector<std::int32_t> place;    ///< In the list of that front.
+  double gravity = 9.81;              ///< [m/s^2]
+  double step = 0.0;                  ///< [s]
+  double smallest = 0.0;              ///< Longest side of the smallest brick [m].
+  Tolerances tolerances;
+  double resting_energy = 0.0;  ///< Potential, of bricks that rest [J].
+  double push_work = 0.0;       ///< [J]
+};
+
+/// Potential energy of a brick against how it was put down [J].
+double potential_energy(const World& world, BrickId brick, double height);
+
+/// The brick that should fall after this one, in its part of the layout, or none.
+BrickId next_of_part(const Layout& layout, BrickId brick);
+
+}  // namespace topple::rigid
