@@ -217,7 +217,10 @@ void Front::read(Frame& out) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving && !members_[i].just_rested) continue;
     const Body& body = bodies_[i];
-    out.free.push_back({body.id, world_.phase[static_cast<std::size_t>(body.id)], {body.position, body.orientation}, body.velocity,
+    out.free.push_back({body.id,
+                        world_.phase[static_cast<std::size_t>(body.id)],
+                        {body.position, body.orientation},
+                        body.velocity,
                         body.angular_velocity});
     if (!members_[i].moving) continue;
     out.energy.kinetic += kinetic_energy(body);

@@ -112,7 +112,7 @@ void touch_boxes(const PlaneBox& a, const PlaneBox& b, double margin, PlaneManif
       best = k;
     }
   }
-  out.axis = static_cast<std::int8_t>(best);
+  out.axis = static_cast<int>(best);
   out.count = 0;
   out.parted = separation[best];
   out.face_of_a = best < 2;

@@ -174,8 +174,8 @@ void PlaneFront::list_neighbours(int place) {
     PlaneTouch touch;
     touch.a = a;
     touch.b = b;
-    const SurfacePair surfaces = surface_pair(world_.layout, bricks_[static_cast<std::size_t>(place)].kind,
-                                              bricks_[static_cast<std::size_t>(there)].kind);
+    const SurfacePair surfaces =
+        surface_pair(world_.layout, bricks_[static_cast<std::size_t>(place)].kind, bricks_[static_cast<std::size_t>(there)].kind);
     touch.friction = surfaces.friction;
     touch.restitution = surfaces.restitution;
     touches_.push_back(touch);
@@ -253,8 +253,7 @@ void PlaneFront::order() {
     touch.a = renamed_[static_cast<std::size_t>(touch.a)];
     if (touch.b >= 0) touch.b = renamed_[static_cast<std::size_t>(touch.b)];
   }
-  std::sort(touches_.begin(), touches_.end(),
-            [](const PlaneTouch& l, const PlaneTouch& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
+  std::sort(touches_.begin(), touches_.end(), [](const PlaneTouch& l, const PlaneTouch& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
 }
 
 void PlaneFront::wake_unsupported(double now) {
@@ -311,9 +310,8 @@ void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveF
   for (const PlaneBrick& brick : bricks_) {
     world_.front[static_cast<std::size_t>(brick.id)] = kNoFront;
     if (!brick.moving) continue;
-    bricks.push_back({brick.id, pose_of(brick),
-                      brick.velocity.x * plane_.along + Vec3{0.0, 0.0, brick.velocity.z}, brick.velocity.turn * plane_.across, brick.quiet,
-                      brick.pushed, brick.landed});
+    bricks.push_back({brick.id, pose_of(brick), brick.velocity.x * plane_.along + Vec3{0.0, 0.0, brick.velocity.z},
+                      brick.velocity.turn * plane_.across, brick.quiet, brick.pushed, brick.landed});
   }
   for (const Force& force : forces_) {
     for (const PlaneBrick& brick : bricks_) {

@@ -19,24 +19,24 @@ struct RowPlane {
 
 struct PlaneBrick {
   PlaneBox box;
-  PlaneBox next;        ///< At the end of the part of the step that is tried.
-  PlaneVec velocity;    ///< At this moment.
-  PlaneVec middle;      ///< Mean over the drift that is planned.
-  PlaneVec before_drift;  ///< Velocity when the last drift began.
-  PlaneVec acceleration;  ///< Before the last blow.
-  double mass = 0.0;    ///< [kg]
-  double inertia = 0.0;  ///< About the axis across [kg m^2].
-  double radius = 0.0;  ///< Of the circle around it [m].
-  double thin = 0.0;    ///< Its thinnest side [m].
-  double time_scale = 0.0;  ///< sqrt(longest side / gravity) [s].
-  double quiet = 0.0;       ///< How long it has hardly moved [s].
+  PlaneBox next;             ///< At the end of the part of the step that is tried.
+  PlaneVec velocity;         ///< At this moment.
+  PlaneVec middle;           ///< Mean over the drift that is planned.
+  PlaneVec before_drift;     ///< Velocity when the last drift began.
+  PlaneVec acceleration;     ///< Before the last blow.
+  double mass = 0.0;         ///< [kg]
+  double inertia = 0.0;      ///< About the axis across [kg m^2].
+  double radius = 0.0;       ///< Of the circle around it [m].
+  double thin = 0.0;         ///< Its thinnest side [m].
+  double time_scale = 0.0;   ///< sqrt(longest side / gravity) [s].
+  double quiet = 0.0;        ///< How long it has hardly moved [s].
   PlaneVec velocity_before;  ///< At the start of the step.
   PlaneVec listed_at;        ///< Where its list of neighbours was made.
   Quat upright;              ///< Its orientation as put down.
   double lateral = 0.0;      ///< Its place across the plane [m].
   BrickId id = kNoBrick;
   std::uint16_t kind = 0;
-  int unknown = -1;   ///< Its place in the system of equations.
+  int unknown = -1;  ///< Its place in the system of equations.
   bool moving = false;
   bool pushed = false;
   bool landed = false;
@@ -46,7 +46,7 @@ struct PlaneBrick {
 /// What a point remembers from moment to moment.
 struct PlaneMemory {
   bool active = false;
-  bool fresh = false;  ///< Became active at the end of this part of the step.
+  bool fresh = false;     ///< Became active at the end of this part of the step.
   PointState kick, blow;  ///< What it did in the last kick and in the last blow: the guess for the next one.
 };
 
@@ -57,10 +57,10 @@ struct PlaneTouch {
   double restitution = 0.0;
   PlaneManifold now, next;
   std::array<PlaneMemory, 2> memory;
-  double impulse = 0.0;   ///< Sum of the normal impulses of the last solution [N s].
-  double load = 0.0;      ///< The force that they are [N].
-  bool bearing = false;   ///< Of a pair of which one moves: they touched when the one came to rest or the other began to move.
-  PlaneVec mark;          ///< Where the moving one was then.
+  double impulse = 0.0;  ///< Sum of the normal impulses of the last solution [N s].
+  double load = 0.0;     ///< The force that they are [N].
+  bool bearing = false;  ///< Of a pair of which one moves: they touched when the one came to rest or the other began to move.
+  PlaneVec mark;         ///< Where the moving one was then.
 };
 
 class PlaneFront final : public Wave {
@@ -81,8 +81,8 @@ class PlaneFront final : public Wave {
 
  private:
   struct InPlane {
-    bool lies = false;      ///< In the plane.
-    bool misses = false;    ///< Its width does not reach any of the plane's bricks.
+    bool lies = false;    ///< In the plane.
+    bool misses = false;  ///< Its width does not reach any of the plane's bricks.
     PlaneVec place;
   };
   InPlane locate(BrickId brick, double half_width) const;
@@ -102,17 +102,17 @@ class PlaneFront final : public Wave {
   void plan(double time);
   void leap(double time);
   void kick(std::span<PlaneUnknown> unknowns, double time) const;
-  void make_rows(PointState PlaneMemory::*guess);
+  void make_rows(PointState PlaneMemory::* guess);
   void set_bias(double time);
-  void remember_impulses(double time, PointState PlaneMemory::*states);
+  void remember_impulses(double time, PointState PlaneMemory::* states);
   void try_drift(double time);
   double first_impact(double time);
   double impact_of(const PlaneTouch& touch, double time) const;
   double distance_at(const PlaneTouch& touch, double time, double whole) const;
   PlaneBox box_at(const PlaneBrick& brick, double time, double whole) const;
-  void accept_drift(double time, double whole);
+  void accept_drift(double cut, double whole);
   bool activate_new_points();
-  void take_blow(double cut, double whole, double next);
+  void take_blow(double whole, double next);
   void blow(bool always);
   void give_back();
   double thinner(const PlaneTouch& touch) const;
@@ -131,16 +131,16 @@ class PlaneFront final : public Wave {
   bool leaves_plane_ = false;
   int moving_ = 0;
   double planned_for_ = 0.0;  // `middle` is good for a drift of this time [s]; 0: for none.
-  bool rested_ = false;   // Some brick came to rest since the lists were made.
+  bool rested_ = false;       // Some brick came to rest since the lists were made.
   std::vector<PlaneBrick> bricks_;
   std::vector<PlaneTouch> touches_;
   std::vector<PlaneRow> rows_;
   std::vector<PlaneUnknown> unknowns_, before_blow_;
   struct Force {
     BrickId brick = kNoBrick;
-    double along = 0.0;           // [N]
-    double x = 0.0, z = 0.0;      // Where it acts, in the brick's own axes [m].
-    double end = 0.0;             // [s]
+    double along = 0.0;       // [N]
+    double x = 0.0, z = 0.0;  // Where it acts, in the brick's own axes [m].
+    double end = 0.0;         // [s]
   };
   std::vector<Force> forces_;
   struct Struck {

@@ -129,7 +129,6 @@ void PlaneSolver::push(const PlaneRow& row, double impulse, const Column<3>& on_
 
 // Velocities that follow from the states that the rows assume.
 bool PlaneSolver::solve_states(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law) {
-
   shape(bodies.size(), rows);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const PlaneUnknown& body = bodies[i];

@@ -33,13 +33,13 @@ struct PlaneRow {
   double normal_stiffness = 0.0;       ///< Impulse per velocity that is left: 1 / compliance [kg].
   double tangent_stiffness = 0.0;      ///< [kg]
   double friction = 0.0;
-  double base = 0.0;        ///< Normal impulse that has been applied already and counts for friction [N s].
-  double normal = 0.0;      ///< Impulse found [N s].
-  double tangent = 0.0;     ///< [N s]
-  PointState state;         ///< The guess, then the truth.
+  double base = 0.0;     ///< Normal impulse that has been applied already and counts for friction [N s].
+  double normal = 0.0;   ///< Impulse found [N s].
+  double tangent = 0.0;  ///< [N s]
+  PointState state;      ///< The guess, then the truth.
   // Of one round of the convex problem.
-  double lagged_slip = 0.0;   ///< Speed at which it slid before [m/s].
-  double lagged_limit = 0.0;  ///< The limit of its friction, for rows with a base [N s].
+  double lagged_slip = 0.0;                          ///< Speed at which it slid before [m/s].
+  double lagged_limit = 0.0;                         ///< The limit of its friction, for rows with a base [N s].
   double slip_normal = 0.0, slip_tangent = 0.0;      ///< Where a search begins [m/s]...
   double change_normal = 0.0, change_tangent = 0.0;  ///< ...and how it changes over its whole way.
 };

@@ -71,7 +71,7 @@ double PlaneFront::part(double begin, double time, bool may_cut) {
   wake_struck(now);
   const double next = cut < time ? time - cut : world_.step;
   if (fresh || !struck_now_.empty()) {
-    take_blow(cut, time, next);
+    take_blow(time, next);
     note_struck(now);
     note_landed(now);
   } else if (cut == time) {
@@ -86,7 +86,7 @@ double PlaneFront::thinner(const PlaneTouch& touch) const {
   return touch.b < 0 ? thin : std::min(thin, bricks_[static_cast<std::size_t>(touch.b)].thin);
 }
 
-void PlaneFront::make_rows(PointState PlaneMemory::*guess) {
+void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
   rows_.clear();
   unknowns_.clear();
   for (PlaneBrick& brick : bricks_) {
@@ -219,7 +219,7 @@ void PlaneFront::leap(double time) {
 }
 
 // Keeps what the points carry and do; one that parts has to come back to touch again.
-void PlaneFront::remember_impulses(double time, PointState PlaneMemory::*states) {
+void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states) {
   const double slow = 0.5 * world_.gravity * world_.step;
   for (PlaneTouch& touch : touches_) touch.impulse = 0.0;
   for (const PlaneRow& row : rows_) {
@@ -387,14 +387,13 @@ bool PlaneFront::activate_new_points() {
 }
 
 // New points touch: the blow acts together with half a kick for the drift of `next` that follows. A bounce, which needs the blow by itself,
-// comes before that. `cut` of a drift of `whole` has just been made.
-void PlaneFront::take_blow(double cut, double whole, double next) {
+// comes before that. The drift before was planned for `whole`.
+void PlaneFront::take_blow(double whole, double next) {
   blow(false);
   // The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
   for (PlaneBrick& brick : bricks_) {
     if (brick.moving) brick.acceleration = (2.0 / whole) * (brick.middle - brick.before_drift);
   }
-  (void)cut;
   plan(next);
   for (PlaneTouch& touch : touches_) touch.load = 0.0;
   for (PlaneBrick& brick : bricks_) {
@@ -402,8 +401,8 @@ void PlaneFront::take_blow(double cut, double whole, double next) {
   }
 }
 
-// A blow by itself, `always` or only if something bounces. Restitution is Poisson's [Glocker1995]: every point gives back a share of the impulse that it took, and only where a bounce lasts longer
-// than a step; a slower hit keeps the points together.
+// A blow by itself, `always` or only if something bounces. Restitution is Poisson's [Glocker1995]: every point gives back a share of the
+// impulse that it took, and only where a bounce lasts longer than a step; a slower hit keeps the points together.
 void PlaneFront::blow(bool always) {
   make_rows(&PlaneMemory::blow);
   for (const PlaneBrick& brick : bricks_) {

@@ -10,10 +10,14 @@ namespace topple::rigid {
 
 template <int N>
 struct Block {
-  std::array<double, static_cast<std::size_t>(N* N)> m{};
+  std::array<double, std::size_t{N} * std::size_t{N}> m{};
 
-  double& at(int row, int column) { return m[static_cast<std::size_t>(N * row + column)]; }
-  double at(int row, int column) const { return m[static_cast<std::size_t>(N * row + column)]; }
+  double& at(int row, int column) {
+    return m[static_cast<std::size_t>(N) * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)];
+  }
+  double at(int row, int column) const {
+    return m[static_cast<std::size_t>(N) * static_cast<std::size_t>(row) + static_cast<std::size_t>(column)];
+  }
 };
 
 template <int N>
