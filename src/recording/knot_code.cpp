@@ -13,21 +13,22 @@ struct Whole {
   std::int32_t time = 0, angle = 0, rate = 0, acceleration = 0;
 };
 
-bool to_steps(float value, double step, std::int32_t& steps) {
-  const double exact = double{value} / step;
-  if (!(std::abs(exact) < 0x1p24)) return false;
+// A float has each multiple of a step, a power of two, up to 2^24 of them, and so has its product with one over the step.
+inline bool to_steps(float value, double step, std::int32_t& steps) {
+  const float exact = value * static_cast<float>(1.0 / step);
+  if (!(std::abs(exact) < 0x1p24F)) return false;
   steps = static_cast<std::int32_t>(exact);
-  return static_cast<double>(steps) == exact;
+  return static_cast<float>(steps) == exact;
 }
 
-bool to_whole(const HingedKnot& knot, Whole& whole) {
+inline bool to_whole(const HingedKnot& knot, Whole& whole) {
   return to_steps(knot.time, KnotSteps::kTime, whole.time) && to_steps(knot.angle, KnotSteps::kAngle, whole.angle) &&
          to_steps(knot.rate, KnotSteps::kRate, whole.rate) && to_steps(knot.acceleration, KnotSteps::kAcceleration, whole.acceleration);
 }
 
 // What a rate is after an even change of acceleration; after a jump most are zero. Any guess will do that the decoder makes too, so these
 // are computed in whole numbers or in the plainest of doubles.
-std::int32_t expected_rate(const Whole& last, const Whole& now) {
+inline std::int32_t expected_rate(const Whole& last, const Whole& now) {
   if (now.time == last.time) return 0;
   const double span = (now.time - last.time) * KnotSteps::kTime;
   const double mean = 0.5 * KnotSteps::kAcceleration * (1.0 * last.acceleration + now.acceleration);
@@ -36,10 +37,10 @@ std::int32_t expected_rate(const Whole& last, const Whole& now) {
 }
 
 // The angle that the corrected trapezium rule expects.
-std::int32_t expected_angle(const Whole& last, const Whole& now) {
+inline std::int32_t expected_angle(const Whole& last, const Whole& now) {
   const double span = (now.time - last.time) * KnotSteps::kTime;
   const double mean = 0.5 * KnotSteps::kRate * (1.0 * last.rate + now.rate);
-  const double bend = KnotSteps::kAcceleration * (1.0 * last.acceleration - now.acceleration) / 12.0;
+  const double bend = (KnotSteps::kAcceleration / 12.0) * (1.0 * last.acceleration - now.acceleration);
   const double change = span * (mean + span * bend) / KnotSteps::kAngle;
   return std::abs(change) < 0x1p24 ? static_cast<std::int32_t>(last.angle + change) : last.angle;
 }
@@ -50,18 +51,19 @@ HingedKnot to_knot(const Whole& whole) {
 }
 
 // Seven bits a byte, the lowest first; the eighth says that more follow. The sign is the lowest bit.
-void put(std::vector<std::uint8_t>& out, std::uint32_t value) {
+constexpr std::size_t kMostBytes = 5;  // Of a number.
+inline void put(std::uint8_t*& out, std::uint32_t value) {
   while (value >= 128) {
-    out.push_back(static_cast<std::uint8_t>(value | 128U));
+    *out++ = static_cast<std::uint8_t>(value | 128U);
     value >>= 7;
   }
-  out.push_back(static_cast<std::uint8_t>(value));
+  *out++ = static_cast<std::uint8_t>(value);
 }
-void put_signed(std::vector<std::uint8_t>& out, std::int32_t value) {
+inline void put_signed(std::uint8_t*& out, std::int32_t value) {
   put(out, (static_cast<std::uint32_t>(value) << 1) ^ static_cast<std::uint32_t>(value >> 31));
 }
 
-std::uint32_t get(const std::uint8_t*& code) {
+inline std::uint32_t get(const std::uint8_t*& code) {
   std::uint32_t value = 0;
   for (unsigned shift = 0;; shift += 7) {
     const std::uint8_t byte = *code++;
@@ -69,48 +71,52 @@ std::uint32_t get(const std::uint8_t*& code) {
     if (byte < 128) return value;
   }
 }
-std::int32_t get_signed(const std::uint8_t*& code) {
+inline std::int32_t get_signed(const std::uint8_t*& code) {
   const std::uint32_t value = get(code);
   return static_cast<std::int32_t>(value >> 1) ^ -static_cast<std::int32_t>(value & 1U);
 }
 
-template <typename Knot>
-void put_floats(std::span<const Knot> knots, std::vector<std::uint8_t>& out) {
-  const std::size_t at = out.size();
-  out.resize(at + knots.size_bytes());
-  std::memcpy(out.data() + at, knots.data(), knots.size_bytes());
+constexpr std::size_t kHead = kMostBytes + 1;
+
+inline void head(std::uint8_t*& out, std::size_t count, Way way) {
+  put(out, static_cast<std::uint32_t>(count));
+  *out++ = static_cast<std::uint8_t>(way);
 }
 
-void head(std::vector<std::uint8_t>& out, std::size_t count, Way way) {
-  put(out, static_cast<std::uint32_t>(count));
-  out.push_back(static_cast<std::uint8_t>(way));
+template <typename Knot>
+void put_floats(std::span<const Knot> knots, Way way, std::vector<std::uint8_t>& out) {
+  const std::size_t start = out.size();
+  out.resize(start + kHead + knots.size_bytes());
+  std::uint8_t* next = out.data() + start;
+  head(next, knots.size(), way);
+  std::memcpy(next, knots.data(), knots.size_bytes());
+  out.resize(static_cast<std::size_t>(next - out.data()) + knots.size_bytes());
 }
 
 }  // namespace
 
 void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out) {
   const std::size_t start = out.size();
-  head(out, knots.size(), Way::rounded);
+  out.resize(start + kHead + 4 * kMostBytes * knots.size());
+  std::uint8_t* next = out.data() + start;
+  head(next, knots.size(), Way::rounded);
   Whole last;
   for (const HingedKnot& knot : knots) {
     Whole now;
     if (!to_whole(knot, now) || now.time < last.time) {
       out.resize(start);
-      head(out, knots.size(), Way::floats);
-      return put_floats(knots, out);
+      return put_floats(knots, Way::floats, out);
     }
-    put(out, static_cast<std::uint32_t>(now.time - last.time));
-    put_signed(out, now.acceleration - last.acceleration);
-    put_signed(out, now.rate - expected_rate(last, now));
-    put_signed(out, now.angle - expected_angle(last, now));
+    put(next, static_cast<std::uint32_t>(now.time - last.time));
+    put_signed(next, now.acceleration - last.acceleration);
+    put_signed(next, now.rate - expected_rate(last, now));
+    put_signed(next, now.angle - expected_angle(last, now));
     last = now;
   }
+  out.resize(static_cast<std::size_t>(next - out.data()));
 }
 
-void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) {
-  head(out, knots.size(), Way::free);
-  put_floats(knots, out);
-}
+void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) { put_floats(knots, Way::free, out); }
 
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
   hinged.clear();
