@@ -1,79 +1,78 @@
 #include "recording/free_tracks.h"
 
-#include <utility>
+#include <cmath>
 
 namespace topple {
 
 namespace {
 
-FreeKnot knot_of(const FreeMotion& motion, double since, const Vec3& put, bool still) {
-  const Vec3 offset = motion.pose.position - put;
-  const Quat& q = motion.pose.orientation;
-  const Vec3 v = still ? Vec3{} : motion.velocity;
-  const Vec3 w = still ? Vec3{} : motion.angular_velocity;
+std::size_t at(BrickId brick) { return static_cast<std::size_t>(brick); }
+
+// As it was put down; the position of a knot is against that.
+FreeKnot put_down(const Pose& put) {
   const auto single = [](double x) { return static_cast<float>(x); };
-  return {.time = single(since),
-          .x = single(offset.x),
-          .y = single(offset.y),
-          .z = single(offset.z),
-          .qw = single(q.w),
-          .qx = single(q.x),
-          .qy = single(q.y),
-          .qz = single(q.z),
-          .vx = single(v.x),
-          .vy = single(v.y),
-          .vz = single(v.z),
-          .wx = single(w.x),
-          .wy = single(w.y),
-          .wz = single(w.z)};
+  const Quat& q = put.orientation;
+  return {.qw = single(q.w), .qx = single(q.x), .qy = single(q.y), .qz = single(q.z)};
+}
+
+bool is_finite(const FreeMotion& motion) {
+  const Vec3& p = motion.pose.position;
+  const Quat& q = motion.pose.orientation;
+  const Vec3& v = motion.velocity;
+  const Vec3& w = motion.angular_velocity;
+  return std::isfinite(p.x + p.y + p.z + q.w + q.x + q.y + q.z + v.x + v.y + v.z + w.x + w.y + w.z);
 }
 
 }  // namespace
 
-FreeTracks::Open& FreeTracks::open_track(const FreeMotion& motion, double start, const Layout& layout, const TrackStore& out) {
-  place_.resize(layout.bricks.size(), -1);
-  std::int32_t& place = place_[static_cast<std::size_t>(motion.brick)];
-  if (place >= 0) return open_[static_cast<std::size_t>(place)];
-  place = static_cast<std::int32_t>(open_.size());
-  Open& open = open_.emplace_back(Open{.brick = motion.brick, .start = start, .knots = {}});
-  // It begins where its last track left it, or as it was put down.
-  const std::int32_t before = out.last_of(motion.brick);
-  FreeKnot first;
+// A track begins where the last one left its brick, or as it was put down, at rest.
+FreeFit& FreeTracks::open(BrickId brick, double start, const Layout& layout, double tolerance, const TrackStore& out) {
+  place_.resize(layout.bricks.size(), kClosed);
+  if (unused_.empty()) {
+    unused_.push_back(static_cast<std::int32_t>(fits_.size()));
+    fits_.emplace_back();
+  }
+  const std::int32_t place = unused_.back();
+  unused_.pop_back();
+  place_[at(brick)] = place;
+
+  const Pose put = standing_pose(layout, brick);
+  FreeKnot first = put_down(put);
+  const std::int32_t before = out.last_of(brick);
   if (before != TrackStore::kNone) {
     const Track last = out.track(static_cast<std::size_t>(before));
     if (!last.free.empty()) first = last.free.back();
-  } else {
-    const FreeMotion put{.brick = motion.brick, .pose = standing_pose(layout, motion.brick)};
-    first = knot_of(put, 0.0, put.pose.position, true);
   }
-  first.time = 0.0F;
-  open.knots.push_back(first);
-  return open;
+  const BrickKind& kind = layout.kind_of(brick);
+  const double diagonal = std::sqrt(kind.height * kind.height + kind.width * kind.width + kind.thickness * kind.thickness);
+  FreeFit& fit = fits_[static_cast<std::size_t>(place)];
+  fit.open(brick, start, first, put.position, {.length = tolerance * kind.thickness, .reach = 0.5 * diagonal});
+  return fit;
 }
 
-void FreeTracks::take(const Frame& frame, double time_step, const Layout& layout, TrackStore& out) {
+void FreeTracks::take(const Frame& frame, double time_step, const Layout& layout, double tolerance, TrackStore& out) {
   for (const FreeMotion& motion : frame.free) {
     const bool moves = motion.phase == Phase::falling;
-    const bool known = !place_.empty() && place_[static_cast<std::size_t>(motion.brick)] >= 0;
-    if (!moves && !known) continue;
-    Open& open = open_track(motion, frame.time - time_step, layout, out);
-    open.knots.push_back(knot_of(motion, frame.time - open.start, standing_pose(layout, motion.brick).position, !moves));
-    if (!moves) close(static_cast<std::size_t>(place_[static_cast<std::size_t>(motion.brick)]), out);
+    const std::int32_t place = place_.empty() ? kClosed : place_[at(motion.brick)];
+    if ((!moves && place == kClosed) || !is_finite(motion)) continue;
+    FreeFit& fit =
+        place == kClosed ? open(motion.brick, frame.time - time_step, layout, tolerance, out) : fits_[static_cast<std::size_t>(place)];
+    fit.add(frame.time, motion, out);
+    if (!moves) close(motion.brick, true, out);
   }
 }
 
-void FreeTracks::close(std::size_t index, TrackStore& out) {
-  out.add(open_[index].brick, open_[index].start, std::span<const FreeKnot>(open_[index].knots));
-  place_[static_cast<std::size_t>(open_[index].brick)] = -1;
-  if (index + 1 != open_.size()) {
-    open_[index] = std::move(open_.back());
-    place_[static_cast<std::size_t>(open_[index].brick)] = static_cast<std::int32_t>(index);
-  }
-  open_.pop_back();
+void FreeTracks::close(BrickId brick, bool still, TrackStore& out) {
+  std::int32_t& place = place_[at(brick)];
+  fits_[static_cast<std::size_t>(place)].close(still, out);
+  unused_.push_back(place);
+  place = kClosed;
 }
 
 void FreeTracks::close_all(TrackStore& out) {
-  while (!open_.empty()) close(open_.size() - 1, out);
+  for (const FreeFit& fit : fits_) {
+    if (fit.brick() != kNoBrick) close(fit.brick(), false, out);
+  }
 }
 
 }  // namespace topple

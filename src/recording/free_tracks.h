@@ -1,11 +1,10 @@
-/// The open tracks of bricks that move freely: every step is a knot, so that no corner is off by more than single precision.
+/// The open tracks of bricks that move freely.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "recording/track_store.h"
+#include "recording/free_fit.h"
 #include "topple/layout.h"
 
 namespace topple {
@@ -13,21 +12,19 @@ namespace topple {
 class FreeTracks {
  public:
   /// Takes the free bricks of a frame; one that is not falling any more ends its track there, at rest.
-  void take(const Frame& frame, double time_step, const Layout& layout, TrackStore& out);
+  /// `tolerance`: how far a corner may be off, as a fraction of the thickness.
+  void take(const Frame& frame, double time_step, const Layout& layout, double tolerance, TrackStore& out);
   void close_all(TrackStore& out);
 
  private:
-  struct Open {
-    BrickId brick = kNoBrick;
-    double start = 0.0;  ///< [s]
-    std::vector<FreeKnot> knots;
-  };
+  static constexpr std::int32_t kClosed = -1;
 
-  Open& open_track(const FreeMotion& motion, double start, const Layout& layout, const TrackStore& out);
-  void close(std::size_t index, TrackStore& out);
+  FreeFit& open(BrickId brick, double start, const Layout& layout, double tolerance, const TrackStore& out);
+  void close(BrickId brick, bool still, TrackStore& out);
 
-  std::vector<Open> open_;           ///< In no order.
-  std::vector<std::int32_t> place_;  ///< Of each brick in open_, -1 if it has no open track.
+  std::vector<FreeFit> fits_;         ///< Those that are closed leave their buffers to the next.
+  std::vector<std::int32_t> unused_;  ///< Places in fits_.
+  std::vector<std::int32_t> place_;   ///< Of each brick in fits_, or kClosed; empty until the first free brick moves.
 };
 
 }  // namespace topple

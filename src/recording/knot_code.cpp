@@ -1,12 +1,13 @@
 #include "recording/knot_code.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 
 namespace topple {
 namespace {
 
-enum class Way : std::uint8_t { rounded, floats, free };
+enum class Way : std::uint8_t { rounded, floats, free, free_rounded };
 
 /// A knot in steps; less than 2^24 of each.
 struct Whole {
@@ -48,6 +49,43 @@ inline std::int32_t expected_angle(const Whole& last, const Whole& now) {
 HingedKnot to_knot(const Whole& whole) {
   return {static_cast<float>(whole.time * KnotSteps::kTime), static_cast<float>(whole.angle * KnotSteps::kAngle),
           static_cast<float>(whole.rate * KnotSteps::kRate), static_cast<float>(whole.acceleration * KnotSteps::kAcceleration)};
+}
+
+/// A free knot in steps, in the order of its members.
+struct WholeFree {
+  static constexpr std::size_t kParts = 14;
+  std::array<std::int32_t, kParts> part{};
+};
+constexpr std::array<float FreeKnot::*, WholeFree::kParts> kMembers = {
+    &FreeKnot::time, &FreeKnot::x,  &FreeKnot::y,  &FreeKnot::z,  &FreeKnot::qw, &FreeKnot::qx, &FreeKnot::qy,
+    &FreeKnot::qz,   &FreeKnot::vx, &FreeKnot::vy, &FreeKnot::vz, &FreeKnot::wx, &FreeKnot::wy, &FreeKnot::wz};
+constexpr std::array<double, WholeFree::kParts> kSteps = {
+    FreeSteps::kTime,     FreeSteps::kPlace, FreeSteps::kPlace, FreeSteps::kPlace,    FreeSteps::kTurn,
+    FreeSteps::kTurn,     FreeSteps::kTurn,  FreeSteps::kTurn,  FreeSteps::kVelocity, FreeSteps::kVelocity,
+    FreeSteps::kVelocity, FreeSteps::kRate,  FreeSteps::kRate,  FreeSteps::kRate};
+// Velocities before places: what is expected of a place depends on them.
+constexpr std::array<std::size_t, WholeFree::kParts> kOrder = {0, 8, 9, 10, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13};
+
+inline bool to_whole(const FreeKnot& knot, WholeFree& whole) {
+  for (std::size_t i = 0; i < WholeFree::kParts; ++i) {
+    if (!to_steps(knot.*kMembers[i], kSteps[i], whole.part[i])) return false;
+  }
+  return true;
+}
+
+inline FreeKnot to_knot(const WholeFree& whole) {
+  FreeKnot knot;
+  for (std::size_t i = 0; i < WholeFree::kParts; ++i) knot.*kMembers[i] = static_cast<float>(whole.part[i] * kSteps[i]);
+  return knot;
+}
+
+// What part i is expected to be; of `now` those before it in kOrder are known.
+inline std::int32_t expected(const WholeFree& last, const WholeFree& now, std::size_t i) {
+  if (i < 1 || i > 3) return last.part[i];
+  const double span = (now.part[0] - last.part[0]) * FreeSteps::kTime;
+  const double mean = 0.5 * FreeSteps::kVelocity * (1.0 * last.part[i + 7] + now.part[i + 7]);
+  const double change = mean * span / FreeSteps::kPlace;
+  return std::abs(change) < 0x1p24 ? static_cast<std::int32_t>(last.part[i] + change) : last.part[i];
 }
 
 // Seven bits a byte, the lowest first; the eighth says that more follow. The sign is the lowest bit.
@@ -116,7 +154,24 @@ void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out) {
   out.resize(static_cast<std::size_t>(next - out.data()));
 }
 
-void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) { put_floats(knots, Way::free, out); }
+void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) {
+  const std::size_t start = out.size();
+  out.resize(start + kHead + WholeFree::kParts * kMostBytes * knots.size());
+  std::uint8_t* next = out.data() + start;
+  head(next, knots.size(), Way::free_rounded);
+  WholeFree last;
+  for (const FreeKnot& knot : knots) {
+    WholeFree now;
+    if (!to_whole(knot, now) || now.part[0] < last.part[0]) {
+      out.resize(start);
+      return put_floats(knots, Way::free, out);
+    }
+    // Time, place, turn and its rates in the order of FreeKnot; a place against what the mean of two velocities makes of it.
+    for (std::size_t i = 0; i < WholeFree::kParts; ++i) put_signed(next, now.part[kOrder[i]] - expected(last, now, kOrder[i]));
+    last = now;
+  }
+  out.resize(static_cast<std::size_t>(next - out.data()));
+}
 
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
   hinged.clear();
@@ -126,6 +181,16 @@ void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vect
   if (way == Way::free) {
     free.resize(count);
     std::memcpy(free.data(), code, count * sizeof(FreeKnot));
+    return;
+  }
+  if (way == Way::free_rounded) {
+    free.resize(count);
+    WholeFree whole;
+    for (FreeKnot& knot : free) {
+      const WholeFree last = whole;
+      for (const std::size_t i : kOrder) whole.part[i] = expected(last, whole, i) + get_signed(code);
+      knot = to_knot(whole);
+    }
     return;
   }
   hinged.resize(count);

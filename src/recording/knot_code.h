@@ -20,6 +20,17 @@ struct KnotSteps {
   static constexpr double kFinestTolerance = 1e-4;  ///< Of an angle [rad].
 };
 
+/// The same for a free knot.
+struct FreeSteps {
+  static constexpr double kTime = 0x1p-22;             ///< [s]
+  static constexpr double kPlace = 0x1p-24;            ///< [m]
+  static constexpr double kTurn = 0x1p-21;             ///< Of a part of the quaternion.
+  static constexpr double kVelocity = 0x1p-13;         ///< [m/s]
+  static constexpr double kRate = 0x1p-9;              ///< [rad/s]
+  static constexpr double kFinestTolerance = 0x1p-18;  ///< Of a corner's place [m].
+  static constexpr double kFinestTurn = 0x1p-14;       ///< The same, over the distance of the corner from the centre of mass.
+};
+
 /// The nearest multiple of `step`, a power of two; for |value| < 2^51 steps.
 inline double rounded(double value, double step) {
   constexpr double kShift = 0x1.8p52;  // Adding and subtracting it drops the digits behind the point.

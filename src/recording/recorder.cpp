@@ -176,7 +176,7 @@ void Recorder::take(const Model& model) {
   ++open.step;
   open.take_kinks();
   open.take_hinged();
-  open.free.take(open.frame, open.time_step, open.store.layout, open.store.tracks);
+  open.free.take(open.frame, open.time_step, open.store.layout, open.store.tolerance, open.store.tracks);
   if (open.step % kStepsBetweenCloses == 0) open.close_long_paused();
   for (const Event& event : model.events()) open.store.add_event(event);
   open.take_energy(model.step_count());

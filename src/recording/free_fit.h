@@ -1,0 +1,60 @@
+/// Turns the steps of one brick that moves freely into the fewest knots that keep every corner within tolerance at every one of them.
+#pragma once
+
+#include <vector>
+
+#include "recording/track_store.h"
+
+namespace topple {
+
+/// One open track. Steps wait in a buffer until a segment from the last knot cannot be stretched over them any more; then the longest one
+/// that fits ends in a knot. Whether it fits is asked at 4, 8, 16 ... steps, so that a step costs a few polynomials in all.
+class FreeFit {
+ public:
+  /// How exact a track has to be.
+  struct Accuracy {
+    double length = 0.0;  ///< How far a corner may be off [m].
+    double reach = 0.0;   ///< From the centre of mass to a corner [m].
+  };
+
+  /// From a knot at time 0 of the track, which starts at `time` [s]; `put` is where the brick was put down.
+  void open(BrickId brick, double time, const FreeKnot& first, const Vec3& put, const Accuracy& accuracy);
+  BrickId brick() const { return brick_; }
+
+  void add(double time, const FreeMotion& motion, TrackStore& out);
+  void close(bool still, TrackStore& out);  ///< `still`: it rests where it is.
+
+ private:
+  using Four = float __attribute__((vector_size(16)));
+  /// A step, its time and place against the last knot.
+  struct Sample {
+    Four place{};  ///< x, y, z [m]; the fourth is its time [s].
+    Four turn{};   ///< w, x, y, z.
+    Four velocity{};
+    Four spin{};  ///< The derivative of `turn` by time [1/s].
+    Vec3 rate;    ///< Angular velocity [rad/s].
+  };
+
+  FreeKnot knot_of(const Sample& sample) const;
+  bool fits(std::size_t count) const;
+  std::size_t longest(std::size_t good, std::size_t bad) const;
+  void cut(std::size_t count, TrackStore& out);
+  void push_knot(const FreeKnot& knot);
+  void store(TrackStore& out);
+
+  BrickId brick_ = kNoBrick;
+  bool round_ = true;         // Knots are multiples of FreeSteps.
+  float most_square_ = 0.0F;  // Of what fits() sums up [m^2].
+  float reach_square_ = 0.0F;
+  Vec3 put_;
+  double start_ = 0.0;      // Of this piece [s].
+  double base_time_ = 0.0;  // Of the last knot, since start_ [s].
+  Vec3 base_place_;         // Of the last knot, as it has it [m].
+  std::size_t good_ = 0;    // So many samples are known to fit.
+  std::size_t next_test_ = 0;
+  Sample base_;  // The last knot, at place and time 0.
+  std::vector<Sample> samples_;
+  std::vector<FreeKnot> knots_;
+};
+
+}  // namespace topple
