@@ -17,3 +17,5 @@ install(FILES ${PROJECT_BINARY_DIR}/topple-config.cmake ${PROJECT_BINARY_DIR}/to
 install(TARGETS topple_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # The page, if it was built; `topple show` finds it beside the program.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/studio/dist/ DESTINATION ${CMAKE_INSTALL_DATADIR}/topple/studio OPTIONAL)
+# The published measurements; `topple validate` finds them beside the program.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/validation/ DESTINATION ${CMAKE_INSTALL_DATADIR}/topple/validation)

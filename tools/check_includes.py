@@ -19,7 +19,8 @@ USES = {
     "run": ["recording", "pivot", "hinge", "rigid"],
     "measure": ["recording"],
     "export": ["recording", "measure"],
-    "all": ["run", "measure", "export"],  # include/topple/topple.h
+    "validation": ["run", "measure", "export"],
+    "all": ["run", "measure", "export", "validation"],  # include/topple/topple.h
     "apps": ["all"],
 }
 MODELS = ["pivot", "hinge", "rigid"]
@@ -29,6 +30,7 @@ CORE = ["base", "layout", "model", "pivot", "hinge", "rigid", "recording", "run"
 FOREIGN = {
     "layout": r"toml\+\+/.*",
     "export": r"hdf5.*|H5.*",
+    "validation": r"toml\+\+/.*|nlohmann/.*",
     "apps": r"CLI/.*|httplib\.h|nlohmann/.*",
 }
 SYSTEM = r"(sys|netinet|arpa)/.*|unistd\.h|fcntl\.h|poll\.h|signal\.h|spawn\.h|pthread\.h|termios\.h"

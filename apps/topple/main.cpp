@@ -20,6 +20,7 @@ std::vector<std::unique_ptr<Verb>> all_verbs() {
   verbs.push_back(export_verb());
   verbs.push_back(replay_verb());
   verbs.push_back(convergence_verb());
+  verbs.push_back(validate_verb());
   return verbs;
 }
 

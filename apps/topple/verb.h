@@ -31,5 +31,6 @@ std::unique_ptr<Verb> plot_verb();
 std::unique_ptr<Verb> export_verb();
 std::unique_ptr<Verb> show_verb();
 std::unique_ptr<Verb> convergence_verb();
+std::unique_ptr<Verb> validate_verb();
 
 }  // namespace topple::app

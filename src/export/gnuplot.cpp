@@ -159,6 +159,18 @@ GnuplotScript& GnuplotScript::data(std::string_view name, const std::vector<Poin
   return *this;
 }
 
+GnuplotScript& GnuplotScript::table(std::string_view name, const std::vector<std::vector<double>>& rows) {
+  text_ += name;
+  text_ += " << EOD\n";
+  for (const std::vector<double>& row : rows) {
+    const bool whole = std::all_of(row.begin(), row.end(), [](double value) { return std::isfinite(value); });
+    for (std::size_t i = 0; whole && i < row.size(); ++i) text_ += (i == 0 ? "" : " ") + decimal(row[i]);
+    text_ += '\n';
+  }
+  text_ += "EOD\n";
+  return *this;
+}
+
 Result<void> draw(const GnuplotScript& script, const fs::path& path) {
   fs::path unfinished = path;
   unfinished += ".part";

@@ -27,6 +27,9 @@ class GnuplotScript {
   /// A named block of points; a point that is not a number breaks the curve. Long curves are thinned to their envelope.
   GnuplotScript& data(std::string_view name, const std::vector<Point>& points);
 
+  /// A named block of rows of numbers, for bands and error bars; a row with something that is not a number breaks the curve.
+  GnuplotScript& table(std::string_view name, const std::vector<std::vector<double>>& rows);
+
   const std::string& text() const { return text_; }
 
  private:

@@ -237,11 +237,22 @@ Leg make_slow_leg(const Train& train, const FrontState& start, const LegGoal& go
   return leg;
 }
 
+namespace {
+
+// Whether what slows the front at the start would stop it on the way, if it stayed as strong: then it may stop and turn round between two
+// nodes of a collocation step, which would not see it.
+bool may_stop(const FrontState& start, double span, const LegGoal& goal) {
+  return -2.0 * goal.start.torque * span > start.rate * start.rate * goal.start.inertia;
+}
+
+}  // namespace
+
 Leg make_leg(Train& train, const FrontState& start, const LegGoal& goal) {
   bool turns_over = true;  // For all we know.
   double span = goal.angle - start.angle;
   if (start.rate != 0.0) {
-    for (int halving = 0; halving <= kMostHalvings; ++halving) {
+    for (int halving = 0; halving <= kMostHalvings; ++halving, span *= 0.5) {
+      if (may_stop(start, span, goal)) continue;
       Leg leg = collocate(train, start, span, goal);
       if (halving == 0) turns_over = leg.turns_over;
       leg.turns_over = turns_over;
@@ -250,7 +261,6 @@ Leg make_leg(Train& train, const FrontState& start, const LegGoal& goal) {
         if (leg.reached) leg.nodes[4].angle = goal.angle;
         return leg;
       }
-      span *= 0.5;
     }
   }
   Leg leg = make_slow_leg(train, start, goal);

@@ -1,0 +1,34 @@
+/// Finished runs on disk, a line of JSON each: an interrupted validation goes on where it was.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "validation/job.h"
+
+namespace topple::validation {
+
+class KeptRuns {
+ public:
+  /// Reads what is there and appends from then on; a line that was cut off by a kill is left out. An empty path keeps nothing.
+  static Result<KeptRuns> open(const std::filesystem::path& path, bool fresh);
+
+  /// A run is named by version, model, the model's fingerprint and the job's key.
+  static std::string name(const std::string& model, std::uint64_t fingerprint, const Job& job);
+
+  std::optional<Outcome> find(const std::string& name) const;
+  void add(const std::string& name, const Outcome& outcome);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  std::map<std::string, Outcome> runs_;
+};
+
+}  // namespace topple::validation
