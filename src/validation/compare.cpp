@@ -158,7 +158,8 @@ Comparison judge(const Compare& compare, const Contest& contest, const Reading& 
 }  // namespace
 
 std::string percent(double share) {
-  std::string text = rounded(100.0 * share, std::fabs(share) < 0.01 ? 1 : 2);
+  const double size = std::fabs(share);
+  std::string text = rounded(100.0 * share, size < 0.01 ? 1 : size < 1.0 ? 2 : 3);
   if (share > 0.0) text.insert(0, "+");
   if (share < 0.0) text.replace(0, 1, "−");
   return text + " %";

@@ -1,11 +1,11 @@
 /// A table of a source's file: every key must be asked for, and what is wrong is said with its place.
 #pragma once
 
+#include <toml++/toml.h>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
-#include <toml++/toml.h>
 #include <vector>
 
 namespace topple::validation {

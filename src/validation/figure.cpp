@@ -65,7 +65,7 @@ void draw_band(Drawing& drawing, const Series& series, const Prediction& predict
     rows.push_back({prediction.x[i], low, high});
   }
   const std::string color = curve_color(static_cast<std::size_t>(series.color));
-  drawing.add(rows, "with filledcurves fs transparent solid 0.16 noborder lc rgb '" + color + "'", series.name);
+  drawing.add(rows, "with filledcurves fs transparent solid 0.16 noborder lc rgb '" + color + "'", series.label);
 }
 
 std::vector<std::vector<double>> rows_of(const Prediction& prediction, std::size_t setting, bool with_spread) {
@@ -80,7 +80,7 @@ std::vector<std::vector<double>> rows_of(const Prediction& prediction, std::size
 void draw_series(Drawing& drawing, const Series& series, const Prediction& prediction) {
   const std::size_t standard = standard_setting(series);
   const auto color = static_cast<std::size_t>(series.color);
-  const std::string title = series.look == Look::band ? "default surfaces" : series.name;
+  const std::string title = series.look == Look::band && !series.label.empty() ? series.label + ", default surfaces" : series.label;
   if (series.look == Look::points) {
     constexpr std::array<int, 5> kMarks = {4, 6, 8, 12, 10};
     drawing.add(rows_of(prediction, standard, series.spread),
@@ -101,7 +101,7 @@ void draw_points(Drawing& drawing, const Points& points, std::size_t number) {
   if (points.line) {
     std::vector<std::vector<double>> rows;
     for (std::size_t i = 0; i < points.x.size(); ++i) rows.push_back({points.x[i], points.y[i]});
-    drawing.add(rows, "with lines lc rgb '#444444' lw 2.2 dt (2,3)", points.name);
+    drawing.add(rows, "with lines lc rgb '#444444' lw 2.2 dt (2,3)", points.label);
     return;
   }
   constexpr std::array<int, 4> kFull = {7, 5, 9, 13};
@@ -117,7 +117,7 @@ void draw_points(Drawing& drawing, const Points& points, std::size_t number) {
     const int mark = (r == 0 ? kFull : kOpen)[number % kFull.size()];
     drawing.add(rows,
                 std::string(bars ? "with yerrorbars" : "with points") + " ps 0.8 lw 1.3 pt " + std::to_string(mark) + " lc rgb '#111111'",
-                reading.name.empty() ? points.name : points.name + ", " + reading.name);
+                reading.name.empty() || points.label.empty() ? points.label : points.label + ", " + reading.name);
   }
 }
 
@@ -144,7 +144,9 @@ Result<void> draw_figure(const Judged& judged, const std::filesystem::path& path
       draw_series(drawing, source.series[i], judged.predictions[i]);
     }
   }
-  for (std::size_t i = 0; i < source.points.size(); ++i) draw_points(drawing, source.points[i], i);
+  for (std::size_t i = 0; i < source.points.size(); ++i) {
+    if (!source.points[i].hidden) draw_points(drawing, source.points[i], i);
+  }
   drawing.finish();
   return draw(*script, path);
 }

@@ -159,7 +159,7 @@ std::string overview(std::span<const SourceReport> reports) {
     }
     const auto holding = std::count_if(report.claims.begin(), report.claims.end(), [](const ClaimCheck& claim) { return claim.holds; });
     rows.push_back({std::to_string(number), "<a href=\"#" + escaped(report.name) + "\">" + escaped(report.title) + "</a>",
-                    verdicts.empty() ? "a study: no verdict" : verdicts,
+                    verdicts.empty() ? "by its claims" : verdicts,
                     report.claims.empty() ? "" : std::to_string(holding) + " of " + std::to_string(report.claims.size())});
   }
   return table({"", "Source", "Verdicts", "Claims that hold"}, rows);

@@ -24,7 +24,9 @@ struct Points {
   std::vector<double> x, y;
   std::vector<double> error;  ///< Half an error bar, one for each point, in the unit of y.
   std::vector<Reading> readings;
-  bool line = false;  ///< A formula of others: drawn as a line.
+  std::string label;    ///< In the figure's key; empty: not there.
+  bool hidden = false;  ///< Not in the figure.
+  bool line = false;    ///< A formula of others: drawn as a line.
 };
 
 /// A number that the source does not state, and its plausible values.
@@ -57,6 +59,7 @@ struct Series {
   std::vector<double> least;        ///< {x} is sought between these two: the least at which all bricks fall.
   bool spread = false;              ///< Error bars are the standard deviation over the repeats.
   bool quick = false;
+  std::string label;  ///< In the figure's key; empty: not there.
   Look look = Look::line;
   int color = 0;
   std::vector<Unknown> unknowns;  ///< Those of its source that its model has, if it is asked to vary them.

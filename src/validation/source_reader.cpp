@@ -27,10 +27,12 @@ Points read_points(Entry& entry) {
   Points points;
   points.name = entry.text("name", true);
   points.solidity = entry.text("solidity");
+  points.label = entry.has("label") ? entry.text("label") : points.name;
   points.x = entry.numbers("x");
   points.y = entry.numbers("y");
   points.error = entry.numbers("error");
   points.line = entry.flag("line", false);
+  points.hidden = entry.flag("hidden", false);
   const std::optional<double> share = entry.number("relative_error");
   if (points.x.empty() || points.x.size() != points.y.size()) entry.wrong("y", "x and y must be lists of the same length, not empty");
   if (share) {
@@ -102,6 +104,7 @@ Series read_series(Entry& entry, const fs::path& folder, std::span<const Unknown
   Series series;
   series.name = entry.text("name", true);
   series.model = entry.text("model", true);
+  series.label = entry.has("label") ? entry.text("label") : series.name;
   series.scene = entry.text("scene", true);
   read_how(entry, series);
   series.spread = entry.flag("spread", false);
