@@ -5,9 +5,15 @@
 
 import type { Player } from './player/player.svelte.ts';
 import type { Stage } from './player/stage.svelte.ts';
+import { Vector3 } from 'three';
+import { makeFilm, type FilmOrder } from './film/film.ts';
 import { turnAt } from './recording/motion.ts';
 import { lastNotOver } from './recording/wave.ts';
+import type { Studio } from './draw/studio.svelte.ts';
+import type { Sound } from './player/sound.svelte.ts';
 import type { Way } from './view/rig.ts';
+
+export type Mode = 'draw' | 'watch' | 'compare';
 
 export interface PageInterface {
   /** Whether a recording is open. */
@@ -37,6 +43,22 @@ export interface PageInterface {
   placeOf(brick: number): { x: number; y: number } | null;
   /** Looks from a place at a place [m, in the layout's axes]. */
   lookFrom(position: [number, number, number], target: [number, number, number]): void;
+  readonly mode: Mode;
+  /** The layout being drawn. */
+  readonly text: string;
+  /** Its bricks, as the engine put them down. */
+  readonly drawn: number;
+  /** What the engine says against it. */
+  readonly doubts: readonly string[];
+  /** Of the last run of the drawn layout, 16 hexadecimal digits. */
+  readonly hash: string;
+  readonly clicks: number;
+  /** A place on the table [mm] in the page [CSS px]. */
+  pixelAt(x: number, y: number): { x: number; y: number } | null;
+  /** Runs a layout by the page's engine and gives its hash. */
+  runHash(text: string, overrides?: string[]): Promise<string>;
+  /** Frames of a film as PNG or a whole film: see film/film.ts. */
+  film(order: FilmOrder, progress?: (done: number, of: number) => void): Promise<Uint8Array>;
   /** Averages a still of so many frames. */
   finishStill(frames?: number): Promise<void>;
 }
@@ -47,9 +69,10 @@ declare global {
   }
 }
 
-export function installPageInterface(player: Player, stage: Stage): void {
+export function installPageInterface(player: Player, stage: Stage, studio: Studio, page: { mode: () => Mode; sound: Sound }): void {
+  stage.onFrame = () => page.sound.follow();
   window.topple = {
-    get loaded() { return player.loaded !== null && stage.playhead !== null; },
+    get loaded() { return player.loaded !== null && player.recording!.bricks.count > 0 && stage.playhead !== null; },
     get bricks() { return player.recording?.bricks.count ?? 0; },
     get time() { return player.time; },
     get duration() { return player.duration; },
@@ -58,6 +81,23 @@ export function installPageInterface(player: Player, stage: Stage): void {
     get fallen() { return player.loaded ? lastNotOver(player.loaded.falls, player.time) + 1 : 0; },
     get still() { return stage.stillPart; },
     get frameCosts() { return stage.costs; },
+    get mode() { return page.mode(); },
+    get text() { return studio.text; },
+    get drawn() { return studio.layout?.bricks ?? 0; },
+    get doubts() { return studio.layout?.doubts.map((doubt) => doubt.words) ?? []; },
+    get hash() { return studio.hash; },
+    get clicks() { return page.sound.played; },
+    pixelAt: (x, y) => {
+      const at = stage.view?.pixelOf(new Vector3(x / 1000, y / 1000, 0));
+      if (!at || !stage.view) return null;
+      const box = stage.view.canvas.getBoundingClientRect();
+      return { x: box.left + at.x, y: box.top + at.y };
+    },
+    runHash: async (text, overrides = []) => {
+      await studio.engine.ready;
+      return (await studio.engine.run({ text, name: 'layout.toml', overrides }).finished).hash;
+    },
+    film: (order, progress) => makeFilm(player, stage, order, { progress: progress ?? (() => undefined), cancelled: () => false }),
     seek: (time) => {
       player.seek(time);
       stage.wake();

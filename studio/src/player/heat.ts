@@ -1,25 +1,39 @@
-/** Heat: bricks coloured by when the wave reached them, dark blue first and yellow last; those it never reached are grey. */
+/** Heat: bricks coloured by when the wave reached them, how fast it was there, or how hard they were hit; those without a value are grey. */
 
 import type { Loaded } from '../recording/load.ts';
 import { EventKind } from '../recording/types.ts';
+import { speedAt } from '../recording/wave.ts';
+
+export type HeatSort = 'arrival' | 'speed' | 'impulse';
 
 /** Stops of a map that is even to the eye and safe for the colour-blind (after cividis). */
 const kHeat = [[0, 34, 78], [66, 78, 108], [124, 123, 120], [187, 173, 108], [254, 232, 56]];
 
-export function heatOf({ recording }: Loaded): (brick: number) => [number, number, number] {
+function valuesOf({ recording, front }: Loaded, sort: HeatSort): Float64Array {
   const { events, bricks } = recording;
-  const arrival = new Float64Array(bricks.count).fill(NaN);
-  let [first, last] = [Infinity, -Infinity];
-  for (let i = 0; i < events.count; i++) {
-    if (events.kind[i] !== EventKind.arrived) continue;
-    arrival[events.brick[i]] = events.time[i];
-    first = Math.min(first, events.time[i]);
-    last = Math.max(last, events.time[i]);
+  const values = new Float64Array(bricks.count).fill(NaN);
+  if (sort === 'speed') {
+    for (let i = 0; i < front.brick.length; i++) values[front.brick[i]] = speedAt(front, i);
+    return values;
   }
+  for (let i = 0; i < events.count; i++) {
+    const brick = events.brick[i];
+    if (sort === 'arrival' && events.kind[i] === EventKind.arrived) values[brick] = events.time[i];
+    if (sort === 'impulse' && Number.isFinite(events.impulse[i])) values[brick] = Math.max(values[brick] || 0, events.impulse[i]);
+  }
+  return values;
+}
+
+export function heatOf(loaded: Loaded, sort: HeatSort = 'arrival'): (brick: number) => [number, number, number] {
+  const values = valuesOf(loaded, sort);
+  const known = Float64Array.from(values.filter((value) => Number.isFinite(value))).sort();
+  // Speeds have outliers at the push and in bends: the middle 96 % take the whole range.
+  const at = (part: number): number => known[Math.floor(part * (known.length - 1))] ?? 0;
+  const [low, high] = sort === 'arrival' ? [at(0), at(1)] : [at(0.02), at(0.98)];
   return (brick) => {
-    if (Number.isNaN(arrival[brick])) return [150, 150, 150];
-    const at = ((arrival[brick] - first) / Math.max(1e-9, last - first)) * (kHeat.length - 1);
-    const i = Math.min(kHeat.length - 2, Math.floor(at));
-    return kHeat[i].map((value, c) => value + (at - i) * (kHeat[i + 1][c] - value)) as [number, number, number];
+    if (!Number.isFinite(values[brick])) return [150, 150, 150];
+    const place = Math.min(1, Math.max(0, (values[brick] - low) / Math.max(1e-9, high - low))) * (kHeat.length - 1);
+    const i = Math.min(kHeat.length - 2, Math.floor(place));
+    return kHeat[i].map((value, c) => value + (place - i) * (kHeat[i + 1][c] - value)) as [number, number, number];
   };
 }

@@ -53,6 +53,30 @@ export class Player {
     this.speed = firstSpeed(loaded.recording.duration);
   }
 
+  /** Whether more of the run is still to come. */
+  growing = $state(false);
+
+  /** The bricks of a layout, without any motion. */
+  show(recording: Recording): void {
+    const none = { time: new Float64Array(0), brick: new Uint32Array(0), distance: new Float64Array(0), length: 0 };
+    this.loaded = { recording, front: none, falls: new Float64Array(0) };
+    this.index = new EventIndex(recording);
+    this.time = 0;
+    this.playing = false;
+    this.growing = false;
+    this.failure = '';
+    this.chosen = -1;
+    this.range = null;
+  }
+
+  /** More of the run that is shown. */
+  grow(loaded: Loaded, over: boolean): void {
+    this.loaded = loaded;
+    this.index = new EventIndex(loaded.recording);
+    this.growing = !over;
+    this.time = Math.min(this.time, loaded.recording.duration);
+  }
+
   toggle(): void {
     if (this.playing) this.playing = false;
     else this.play();
@@ -79,7 +103,7 @@ export class Player {
       if (this.looping && to > from) time = from + ((time - to) % (to - from));
       else {
         time = to;
-        this.playing = false;
+        if (!this.growing) this.playing = false; // else it waits for more
       }
     }
     this.time = time;

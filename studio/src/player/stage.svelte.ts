@@ -18,6 +18,10 @@ export class Stage {
   playhead: Playhead | null = null;
   /** What the page's own code costs in a frame, without the graphics card's share: the last 240 frames [ms]. */
   readonly costs: number[] = [];
+  /** A film has the view: the page's own loop stands still. */
+  filming = false;
+  /** Puts the view back to the page's size. */
+  resized: () => void = () => undefined;
   private asked = 0;
   private last = 0;
 
@@ -36,6 +40,46 @@ export class Stage {
     this.wake();
   }
 
+  /** Called with every frame: the sound. */
+  onFrame: (() => void) | null = null;
+
+  /** Another document in the same view. */
+  replaceFresh(recording: Recording): void {
+    this.playhead = new Playhead(recording, middleOf(recording));
+    this.view?.replace(recording, this.playhead);
+    if (this.way !== 'top') this.way = 'orbit';
+    this.wake();
+  }
+
+  /** Where a brick was put down; null for one that is not there. */
+  placeOf(brick: number): Spot | null {
+    const count = this.playhead?.recording.bricks.count ?? 0;
+    return brick >= 0 && brick < count ? this.spotOf(brick) : null;
+  }
+
+  /** Brings a place near. */
+  flyTo(spot: Spot): void {
+    this.view?.rig.closeUp(spot);
+    this.wake();
+  }
+
+  /** Another recording in the same view: what is drawn changes, the camera stays. */
+  replace(recording: Recording): void {
+    const origin = this.playhead?.origin ?? middleOf(recording);
+    this.playhead = new Playhead(recording, origin);
+    this.view?.replace(recording, this.playhead);
+    this.wake();
+  }
+
+  /** More of the run that is shown. */
+  grow(recording: Recording): void {
+    if (!this.playhead) return;
+    this.playhead = new Playhead(recording, this.playhead.origin, this.playhead);
+    this.playhead.moveTo(this.player.time);
+    this.view?.follow(this.playhead);
+    this.wake();
+  }
+
   close(): void {
     cancelAnimationFrame(this.asked);
     this.asked = 0;
@@ -45,7 +89,7 @@ export class Stage {
 
   /** Asks for frames until nothing changes any more. */
   wake(): void {
-    if (this.asked) return;
+    if (this.asked || this.filming) return;
     this.last = performance.now();
     this.asked = requestAnimationFrame((now) => this.tick(now));
   }
@@ -55,6 +99,7 @@ export class Stage {
     this.last = now;
     this.asked = 0;
     this.player.advance(dt);
+    this.onFrame?.();
     const more = this.drawFrame(dt);
     if (more || this.player.playing) this.asked = requestAnimationFrame((next) => this.tick(next));
   }
@@ -130,11 +175,11 @@ export class Stage {
     this.wake();
   }
 
-  frameAll(): void {
+  frameAll(cut = false): void {
     if (this.way !== 'top') this.way = 'orbit';
     this.view?.rig.orbit();
     if (this.view && this.way === 'top') this.view.rig.way = 'top';
-    this.view?.rig.frameAll();
+    this.view?.rig.frameAll(cut);
     this.wake();
   }
 }
@@ -149,5 +194,6 @@ function middleOf(recording: Recording): [number, number, number] {
     lowY = Math.min(lowY, foot[3 * brick + 1]);
     highY = Math.max(highY, foot[3 * brick + 1]);
   }
+  if (count === 0) return [0, 0, 0];
   return [0.5 * (lowX + highX), 0.5 * (lowY + highY), 0];
 }

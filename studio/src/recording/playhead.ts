@@ -31,14 +31,18 @@ export class Playhead {
   private moves = 0;
   private readonly pose = newPose();
 
-  /** @param origin A point near the bricks, so that 32-bit positions stay exact far from the layout's own origin [m]. */
+  /**
+   * @param origin A point near the bricks, so that 32-bit positions stay exact far from the layout's own origin [m].
+   * @param before Of the same bricks: its arrays are used on, as a longer recording of one run comes.
+   */
   constructor(
     readonly recording: Recording,
     readonly origin: readonly [number, number, number] = [0, 0, 0],
+    before?: Playhead,
   ) {
     const { bricks, tracks } = recording;
-    this.position = new Float32Array(bricks.count * 3);
-    this.turn = new Float32Array(bricks.count * 4);
+    this.position = before?.position ?? new Float32Array(bricks.count * 3);
+    this.turn = before?.turn ?? new Float32Array(bricks.count * 4);
     this.touched = new Uint32Array(bricks.count);
     this.stamp = new Uint32Array(bricks.count);
     this.active = new Uint32Array(tracks.count);

@@ -21,7 +21,7 @@ export class BrickMesh {
 
   constructor(
     private readonly recording: Recording,
-    private readonly playhead: Playhead,
+    private playhead: Playhead,
   ) {
     const count = recording.bricks.count;
     this.geometry = brickGeometry(roundingFor(count));
@@ -74,6 +74,15 @@ export class BrickMesh {
     const ghost = new Mesh(geometry, material);
     ghost.frustumCulled = false;
     return ghost;
+  }
+
+  /** A playhead over the same arrays takes the place of the one before. */
+  follow(playhead: Playhead): void {
+    this.playhead = playhead;
+    for (const attribute of [this.position, this.turn]) {
+      attribute.clearUpdateRanges();
+      attribute.needsUpdate = true;
+    }
   }
 
   /** Tells the graphics card which bricks the playhead's last move touched. */

@@ -1,6 +1,6 @@
 /** The camera and its four ways: orbit (free), front (follows the wave), eye (low beside a brick), top. */
 
-import { PerspectiveCamera, Vector3 } from 'three';
+import { MOUSE, PerspectiveCamera, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { defaultDirection, frame, type Aim, type Insets } from './framing.ts';
 
@@ -24,6 +24,7 @@ export class Rig {
   /** Cut instead of flying. */
   still = matchMedia('(prefers-reduced-motion: reduce)').matches;
   /** All bricks are in view and nobody has moved the camera since: it keeps them in view when the page changes its size. */
+  private drawing = false;
   private framed = true;
   private flight: { from: Aim; to: Aim; part: number } | null = null;
 
@@ -33,8 +34,8 @@ export class Rig {
    */
   constructor(
     element: HTMLElement,
-    private readonly points: Vector3[],
-    private readonly brickHeight: number,
+    private points: Vector3[],
+    private brickHeight: number,
     changed: () => void,
   ) {
     this.camera.up.set(0, 0, 1);
@@ -49,6 +50,21 @@ export class Rig {
       this.flight = null;
       this.framed = false;
     });
+  }
+
+  /** Other bricks: the camera stays where it is. */
+  setPoints(points: Vector3[], brickHeight: number): void {
+    this.points = points;
+    this.brickHeight = brickHeight;
+    this.controls.minDistance = 0.6 * brickHeight;
+    this.framed = false;
+  }
+
+  /** While drawing the left button and one finger draw; the right button, the wheel and two fingers move the camera. */
+  setDrawing(drawing: boolean): void {
+    this.drawing = drawing;
+    this.controls.mouseButtons = drawing ? { LEFT: null, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE } : { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
+    this.controls.touches = drawing ? { ONE: null, TWO: TOUCH.DOLLY_PAN } : { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN };
   }
 
   get distance(): number {
@@ -136,7 +152,7 @@ export class Rig {
   }
 
   defaultForward(): Vector3 {
-    return defaultDirection(this.points);
+    return this.drawing ? new Vector3(0, 0.7, -0.72) : defaultDirection(this.points);
   }
 
   orbit(): void {
@@ -159,6 +175,20 @@ export class Rig {
     const side = new Vector3(-ahead.y, ahead.x, 0);
     const from = ahead.multiplyScalar(0.62).addScaledVector(side, this.sideOf(target, side)).setZ(0.42).normalize();
     this.goTo({ position: target.clone().addScaledVector(from, reach), target });
+  }
+
+  /** Turns the camera about what it looks at [rad]. */
+  swing(angle: number): void {
+    const arm = this.camera.position.clone().sub(this.controls.target).applyAxisAngle(new Vector3(0, 0, 1), angle);
+    this.camera.position.copy(this.controls.target).add(arm);
+    this.controls.update();
+  }
+
+  /** Near a place, from where the camera is now. */
+  closeUp(spot: Spot): void {
+    const from = this.camera.position.clone().sub(this.controls.target).normalize();
+    from.setZ(Math.max(from.z, 0.35)).normalize();
+    this.goTo({ position: spot.place.clone().addScaledVector(from, 12 * this.brickHeight), target: spot.place.clone() });
   }
 
   /** The side of a row on which the camera is now, so that it need not cross over. */

@@ -1,6 +1,6 @@
 /** The 3-D view: one scene, drawn live while anything moves and averaged into a still when nothing does. */
 
-import { HalfFloatType, Raycaster, Scene, type Mesh, type Ray, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { HalfFloatType, Raycaster, Scene, SRGBColorSpace, type Mesh, type Ray, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
 import type { Playhead } from '../recording/playhead.ts';
 import { extentsOf } from '../recording/pose.ts';
 import type { Recording } from '../recording/types.ts';
@@ -35,7 +35,7 @@ export function hasWebGl(): boolean {
 
 export class View {
   readonly rig: Rig;
-  readonly bricks: BrickMesh;
+  bricks: BrickMesh;
   /** Averaging may be switched off, for tests and by a person who saves power. */
   stills = true;
   /** Drawn by the processor: no graphics card. */
@@ -47,9 +47,10 @@ export class View {
   private readonly pass: FinalPass;
   private readonly still: Still;
   private readonly live: WebGLRenderTarget;
-  private readonly bounds: Bounds;
-  private readonly brickHeight: number;
+  private bounds: Bounds;
+  private brickHeight: number;
   private ghost: Mesh | null = null;
+  private theme: Theme = 'light';
   private dirty = true;
   private quiet = 0;
   private share = 0;
@@ -57,14 +58,14 @@ export class View {
   constructor(
     readonly canvas: HTMLCanvasElement,
     recording: Recording,
-    private readonly playhead: Playhead,
+    private playhead: Playhead,
     /** Called when the picture will change by itself: a camera was dragged. */
     wake: () => void,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: 'high-performance' });
     this.renderer.info.autoReset = false;
     this.software = isSoftware(this.renderer);
-    this.brickHeight = Math.max(...recording.kinds.map((kind) => kind.height));
+    this.brickHeight = tallest(recording);
     const points = framePoints(recording, playhead.origin);
     this.bounds = boundsOf(points);
     this.rig = new Rig(canvas, points, this.brickHeight, () => {
@@ -81,7 +82,32 @@ export class View {
     this.live = new WebGLRenderTarget(1, 1, { type: HalfFloatType, samples: this.software ? 0 : 4 });
   }
 
+  /** Other bricks take the place of those that are shown; the camera stays. */
+  replace(recording: Recording, playhead: Playhead): void {
+    this.scene.remove(this.bricks.mesh);
+    if (this.ghost) this.scene.remove(this.ghost);
+    this.ghost = null;
+    this.bricks.dispose();
+    this.playhead = playhead;
+    this.brickHeight = tallest(recording);
+    const points = framePoints(recording, playhead.origin);
+    this.bounds = boundsOf(points);
+    this.rig.setPoints(points, this.brickHeight);
+    this.bricks = new BrickMesh(recording, playhead);
+    this.bricks.surroundings.value = kMoods[this.theme].surroundings;
+    this.scene.add(this.bricks.mesh);
+    this.changed();
+  }
+
+  /** The same bricks with more of their motion. */
+  follow(playhead: Playhead): void {
+    this.playhead = playhead;
+    this.bricks.follow(playhead);
+    this.changed();
+  }
+
   setTheme(theme: Theme): void {
+    this.theme = theme;
     this.light.setMood(kMoods[theme]);
     this.bricks.surroundings.value = kMoods[theme].surroundings;
     this.table.setTheme(theme);
@@ -211,6 +237,28 @@ export class View {
     );
   }
 
+  /** The bricks alone on nothing: a PNG with a transparent background. */
+  async clearPicture(): Promise<Blob> {
+    const size = this.renderer.getDrawingBufferSize(new Vector2());
+    const target = new WebGLRenderTarget(size.x, size.y, { samples: 4, colorSpace: SRGBColorSpace });
+    const { background, fog } = this.scene;
+    this.scene.background = null;
+    this.scene.fog = null;
+    this.table.mesh.visible = false;
+    this.prepare();
+    this.renderer.setClearColor(0, 0);
+    this.renderer.setRenderTarget(target);
+    this.renderer.clear();
+    this.renderer.render(this.scene, this.rig.camera);
+    const pixels = new Uint8ClampedArray(size.x * size.y * 4);
+    this.renderer.readRenderTargetPixels(target, 0, 0, size.x, size.y, pixels);
+    Object.assign(this.scene, { background, fog });
+    this.table.mesh.visible = true;
+    target.dispose();
+    this.changed();
+    return pngOf(pixels, size.x, size.y);
+  }
+
   /** @param x, y In CSS pixels from the view's upper left corner. @returns A brick or -1. */
   pick(x: number, y: number): number {
     return pickBrick(this.playhead, this.rayAt(x, y));
@@ -238,6 +286,29 @@ export class View {
   }
 }
 
+/** Linear light, premultiplied and bottom row first, as a picture: sRGB, top row first. */
+async function pngOf(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, height: number): Promise<Blob> {
+  const image = new ImageData(width, height);
+  for (let y = 0; y < height; y++) {
+    image.data.set(pixels.subarray((height - 1 - y) * width * 4, (height - y) * width * 4), y * width * 4);
+  }
+  for (let i = 0; i < image.data.length; i += 4) {
+    const alpha = image.data[i + 3] / 255;
+    for (let c = 0; c < 3 && alpha > 0; c++) {
+      const light = Math.min(1, image.data[i + c] / 255 / alpha);
+      image.data[i + c] = 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055);
+    }
+  }
+  const sheet = new OffscreenCanvas(width, height);
+  sheet.getContext('2d')?.putImageData(image, 0, 0);
+  return sheet.convertToBlob({ type: 'image/png' });
+}
+
+/** Height of the tallest kind [m]; of a usual brick where there is none. */
+function tallest(recording: Recording): number {
+  return recording.kinds.length ? Math.max(...recording.kinds.map((kind) => kind.height)) : 0.048;
+}
+
 function isSoftware(renderer: WebGLRenderer): boolean {
   const gl = renderer.getContext();
   const names = gl.getExtension('WEBGL_debug_renderer_info');
@@ -256,7 +327,8 @@ function framePoints(recording: Recording, origin: readonly number[]): Vector3[]
     points.push(new Vector3(x, y, z), new Vector3(x, y, z + up), new Vector3(x + up * Math.cos(heading), y + up * Math.sin(heading), z));
   };
   for (let brick = 0; brick < bricks.count; brick += step) add(brick);
-  add(bricks.count - 1);
+  if (bricks.count > 0) add(bricks.count - 1);
+  else for (const x of [-0.6, 0.6]) for (const y of [-0.4, 0.4]) points.push(new Vector3(x, y, 0));
   return points;
 }
 

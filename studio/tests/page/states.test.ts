@@ -31,7 +31,9 @@ describe('what cannot be shown is said in words', () => {
     return words;
   }
 
-  test('no recording', async () => expect(await wordsFor(null)).toMatch(/No recording is open[\s\S]*Drop a .topple file/));
+  test('no recording: a bare table to draw on', async () => {
+    expect(await wordsFor(null)).toMatch(/Draw a line. Bricks will stand along it/);
+  });
 
   test('a foreign file', async () => {
     expect(await wordsFor(new TextEncoder().encode('something else entirely'))).toMatch(/not a recording of Topple/);
@@ -48,7 +50,7 @@ describe('what cannot be shown is said in words', () => {
     await page.goto(`${site.url}?still=off`);
     await page.waitForFunction(() => window.topple?.loaded);
     const give = (name: string, bytes: Uint8Array): Promise<void> =>
-      page.getByLabel('Recording file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(bytes) });
+      page.getByLabel('Layout or recording file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(bytes) });
     await give('bad.topple', new TextEncoder().encode('TOPPLE01 and nothing more'));
     await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/What was open is untouched/);
     expect(await page.evaluate(() => window.topple.bricks)).toBe(12);

@@ -1,0 +1,213 @@
+/** What the page is doing: drawing, watching or comparing; what is open, where it came from, and how one becomes the other. */
+
+import { hashWords, readFragment } from './draw/link.ts';
+import type { Studio } from './draw/studio.svelte.ts';
+import type { Finished } from './engine/client.ts';
+import type { Mode } from './page_interface.ts';
+import { openRecording } from './player/opening.ts';
+import type { Player, Summary } from './player/player.svelte.ts';
+import type { Stage } from './player/stage.svelte.ts';
+import { emptyRecording } from './recording/empty.ts';
+import type { Recording } from './recording/types.ts';
+import type { Order } from './recording/worker.ts';
+import type { Theme } from './view/view.ts';
+
+/** What only the page's elements know. */
+export interface Screen {
+  /** Null: there is no WebGL. */
+  canvas: () => HTMLCanvasElement | null;
+  theme: () => Theme;
+  /** Gives the view the size of its place. */
+  fit: () => void;
+  /** Another document or mode: what was drawn over the last one goes. */
+  clear: () => void;
+}
+
+export class Session {
+  mode = $state<Mode>('watch');
+  /** Opening takes long. */
+  slow = $state(false);
+  /** Why the engine is not there; empty: it is, or is coming. */
+  noEngine = $state('');
+  /** One sentence for a while: a link was copied, a hash is the same. */
+  note = $state('');
+  /** The run of the drawn layout that is shown; null: a recording from elsewhere, or none. */
+  finished = $state.raw<Finished | null>(null);
+  private cancelOpening: (() => void) | null = null;
+  private frameNext = true;
+  private noteTimer = 0;
+
+  constructor(
+    private readonly player: Player,
+    private readonly stage: Stage,
+    private readonly studio: Studio,
+    private readonly screen: Screen,
+  ) {
+    studio.begin((layout) => {
+      if (this.mode === 'draw') this.showLayout(layout.recording);
+    });
+  }
+
+  say(words: string): void {
+    this.note = words;
+    clearTimeout(this.noteTimer);
+    this.noteTimer = window.setTimeout(() => (this.note = ''), 6000);
+  }
+
+  // ---- Opening ----
+
+  /** What the address says: a layout after '#', else the recording beside the page, else the table. */
+  async begin(): Promise<void> {
+    this.stage.open(emptyRecording(), this.screen.canvas(), this.screen.theme());
+    this.screen.fit();
+    if (!(await this.openFragment())) this.open({ url: new URL('recording.topple', document.baseURI).href });
+  }
+
+  open(order: Order): void {
+    this.cancelOpening?.();
+    this.cancelOpening = openRecording(order, this.player, {
+      slow: (is) => (this.slow = is),
+      opened: () => {
+        this.finished = null;
+        this.mode = 'watch';
+        this.showFresh(this.player.recording as Recording);
+      },
+      absent: () => void this.beginDrawing(),
+    });
+  }
+
+  cancel(): void {
+    this.cancelOpening?.();
+    void this.beginDrawing();
+  }
+
+  async openFile(file: File): Promise<void> {
+    if (/\.toml$/i.test(file.name)) return this.openLayout(await file.text());
+    this.player.summary = null;
+    this.open({ bytes: await file.arrayBuffer() });
+  }
+
+  /** Another layout to draw on; the one before can be had back by undo. */
+  openLayout(text: string, promised = ''): void {
+    this.frameNext = true;
+    this.player.failure = '';
+    this.setMode('draw', true);
+    this.studio.open(text, promised);
+  }
+
+  async fetchSummary(): Promise<void> {
+    try {
+      const answer = await fetch('summary.json');
+      if (answer.ok && answer.status === 200) this.player.summary = (await answer.json()) as Summary;
+    } catch {
+      this.player.summary = null; // the page does without
+    }
+  }
+
+  async beginDrawing(): Promise<void> {
+    this.setMode('draw', true);
+    this.studio.restore();
+    if (this.studio.empty) this.showLayout(null);
+    await this.studio.engine.ready.catch((error: Error) => (this.noEngine = error.message));
+  }
+
+  /** @returns Whether the address holds a layout. */
+  async openFragment(): Promise<boolean> {
+    if (!location.hash.includes('layout=')) return false;
+    try {
+      const shared = await readFragment(location.hash);
+      if (!shared) return false;
+      this.openLayout(shared.text, shared.hash);
+      await this.studio.engine.ready.catch((error: Error) => (this.noEngine = error.message));
+    } catch (error) {
+      await this.beginDrawing();
+      this.player.failure = `${(error as Error).message} Your own layout is untouched.`;
+    }
+    return true;
+  }
+
+  // ---- What the view shows ----
+
+  private showFresh(recording: Recording): void {
+    const { stage } = this;
+    this.screen.clear();
+    stage.replaceFresh(recording);
+    this.screen.fit();
+    stage.view?.rig.setDrawing(this.mode === 'draw');
+    stage.frameAll(true);
+  }
+
+  private showLayout(recording: Recording | null): void {
+    const shown = recording ?? emptyRecording();
+    this.player.show(shown);
+    if (this.frameNext) this.showFresh(shown);
+    else this.stage.replace(shown);
+    this.frameNext = false;
+  }
+
+  /** @param bare The layout of a recording that is open is not taken over. */
+  setMode(next: Mode, bare = false): void {
+    if (this.mode === next) return;
+    const { player, stage, studio } = this;
+    this.mode = next;
+    this.screen.clear();
+    player.playing = false;
+    stage.view?.rig.setDrawing(next === 'draw');
+    if (next === 'draw') {
+      studio.stop();
+      if (!bare && !this.finished && player.recording?.recipe.layoutText && player.recording.recipe.model) this.editRecording();
+      else if (!bare) this.showLayout(studio.layout?.recording ?? null);
+    } else if (next === 'watch' && this.finished) this.showRun(this.finished);
+  }
+
+  /** The layout of a recording that came from elsewhere, for drawing on. */
+  private editRecording(): void {
+    const { layoutText, model } = (this.player.recording as Recording).recipe;
+    this.frameNext = true;
+    this.studio.open(layoutText);
+    if (model === 'pivot' || model === 'hinge' || model === 'rigid') this.studio.setModel(model);
+    if (this.studio.layout) this.showLayout(this.studio.layout.recording);
+  }
+
+  private showRun(run: Finished): void {
+    this.player.grow(run.loaded, true);
+    if (this.stage.playhead?.recording.bricks.count === run.loaded.recording.bricks.count) this.stage.grow(run.loaded.recording);
+    else this.stage.replaceFresh(run.loaded.recording);
+  }
+
+  async topple(): Promise<void> {
+    const { studio, player, stage } = this;
+    const { layout, promised } = studio;
+    if (studio.empty || !layout || studio.running || layout.doubts.some((one) => one.kind === 'overlap')) return;
+    this.finished = null;
+    player.show(layout.recording);
+    stage.replace(layout.recording);
+    this.mode = 'watch';
+    this.screen.clear();
+    stage.view?.rig.setDrawing(false);
+    player.growing = true;
+    player.speed = 1;
+    player.playing = true;
+    const run = await studio.run({
+      grown: (loaded) => {
+        if (this.mode === 'draw') return;
+        player.grow(loaded, false);
+        stage.grow(loaded.recording);
+      },
+      progress: () => undefined,
+    });
+    player.growing = false;
+    if (!run) return this.setMode('draw');
+    if ((this.mode as Mode) === 'draw') return;
+    this.finished = run;
+    const { playing } = player;
+    this.showRun(run);
+    if (playing) player.play();
+    if (promised) this.say(this.promiseWords(promised, run.hash));
+  }
+
+  private promiseWords(promised: string, hash: string): string {
+    if (promised === hash) return `Same result as the sender’s (hash ${hashWords(hash)}).`;
+    return `The sender’s result was another one: hash ${hashWords(promised)} there, ${hashWords(hash)} here.`;
+  }
+}
