@@ -116,6 +116,12 @@ inline std::int32_t get_signed(const std::uint8_t*& code) {
 
 constexpr std::size_t kHead = kMostBytes + 1;
 
+// A rounded hinged track has its last knot behind the head, as it is, and then the codes of all.
+void put_last(std::uint8_t*& out, const HingedKnot& last) {
+  std::memcpy(out, &last, sizeof last);
+  out += sizeof last;
+}
+
 inline void head(std::uint8_t*& out, std::size_t count, Way way) {
   put(out, static_cast<std::uint32_t>(count));
   *out++ = static_cast<std::uint8_t>(way);
@@ -135,9 +141,10 @@ void put_floats(std::span<const Knot> knots, Way way, std::vector<std::uint8_t>&
 
 void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out) {
   const std::size_t start = out.size();
-  out.resize(start + kHead + 4 * kMostBytes * knots.size());
+  out.resize(start + kHead + sizeof(HingedKnot) + 4 * kMostBytes * knots.size());
   std::uint8_t* next = out.data() + start;
   head(next, knots.size(), Way::rounded);
+  put_last(next, knots.back());
   Whole last;
   for (const HingedKnot& knot : knots) {
     Whole now;
@@ -173,6 +180,15 @@ void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) {
   out.resize(static_cast<std::size_t>(next - out.data()));
 }
 
+std::optional<HingedKnot> last_hinged_knot(const std::uint8_t* code) {
+  const std::size_t count = get(code);
+  const auto way = static_cast<Way>(*code++);
+  if (way == Way::free || way == Way::free_rounded) return std::nullopt;
+  HingedKnot last;
+  std::memcpy(&last, way == Way::floats ? code + (count - 1) * sizeof last : code, sizeof last);
+  return last;
+}
+
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
   hinged.clear();
   free.clear();
@@ -198,6 +214,7 @@ void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vect
     std::memcpy(hinged.data(), code, count * sizeof(HingedKnot));
     return;
   }
+  code += sizeof(HingedKnot);
   Whole whole;
   for (HingedKnot& knot : hinged) {
     const Whole last = whole;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,9 @@ inline double rounded(double value, double step) {
 /// Appends the code of a track's knots. Exact: knots that are not multiples of the steps are kept as floats.
 void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out);
 void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out);
+
+/// The last knot of a hinged track, which costs nothing to read: most questions are about where a brick rests. None of a free track.
+std::optional<HingedKnot> last_hinged_knot(const std::uint8_t* code);
 
 /// What encode() made.
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free);

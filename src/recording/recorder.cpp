@@ -42,7 +42,6 @@ struct Recorder::Open {
   std::vector<std::int32_t> slot;  // Of each brick, its place in `fits`, or kClosed.
   std::vector<HingedFit> fits;
   std::vector<std::int32_t> unused;  // Places in `fits`.
-  Track last;                        // A buffer.
   FreeTracks free;
 };
 
@@ -62,9 +61,9 @@ HingedFit& Recorder::Open::begin(BrickId brick, double time, HingedState state) 
   const std::int32_t before = store.tracks.last_of(brick);
   bool again = false;
   if (before != TrackStore::kNone) {
-    store.tracks.read(static_cast<std::size_t>(before), last);
-    again = !last.hinged.empty() && std::abs(double{last.hinged.back().angle} - state.angle) < tolerance;
-    if (again) state.angle = double{last.hinged.back().angle};
+    const auto last = store.tracks.last_knot(before);
+    again = last && std::abs(double{last->angle} - state.angle) < tolerance;
+    if (again) state.angle = double{last->angle};
   }
   HingedFit& fit = fits[static_cast<std::size_t>(index)];
   fit.open(brick, time, state, tolerance, again);
@@ -97,8 +96,8 @@ void Recorder::Open::wake(const HingedMotion& motion) {
     double angle = 0.0;
     const std::int32_t before = store.tracks.last_of(motion.brick);
     if (before != TrackStore::kNone) {
-      store.tracks.read(static_cast<std::size_t>(before), last);
-      angle = last.hinged.empty() ? 0.0 : double{last.hinged.back().angle};
+      const auto last = store.tracks.last_knot(before);
+      angle = last ? double{last->angle} : 0.0;
     }
     begin(motion.brick, time, {angle, 0.0, motion.state.acceleration});
   } else {

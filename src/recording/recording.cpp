@@ -48,12 +48,13 @@ BrickState free_state(const Layout& layout, BrickId brick, const FreeState& free
   return state;
 }
 
+Phase phase_after(const HingedKnot& last) {
+  if (last.rate != 0.0F || last.acceleration != 0.0F) return Phase::falling;
+  return last.angle == 0.0F ? Phase::standing : Phase::resting;
+}
+
 Phase phase_after(const Track& last, double angle) {
-  if (!last.hinged.empty()) {
-    const HingedKnot& knot = last.hinged.back();
-    if (knot.rate != 0.0F || knot.acceleration != 0.0F) return Phase::falling;
-    return angle == 0.0 ? Phase::standing : Phase::resting;
-  }
+  if (!last.hinged.empty()) return phase_after(last.hinged.back());
   const FreeKnot& knot = last.free.back();
   const bool still = knot.vx == 0.0F && knot.vy == 0.0F && knot.vz == 0.0F && knot.wx == 0.0F && knot.wy == 0.0F && knot.wz == 0.0F;
   if (!still) return Phase::falling;
@@ -126,6 +127,14 @@ BrickState Recording::at(BrickId brick, double time) const {
   if (piece == TrackStore::kNone) {
     BrickState state;
     state.pose = standing_pose(store_->layout, brick);
+    return state;
+  }
+  // After its end a hinged track need not be unpacked.
+  if (const auto last = tracks.last_knot(piece); last && time >= tracks.start_of(piece) + double{last->time}) {
+    const bool moves = phase_after(*last) == Phase::falling;
+    const HingedState end{double{last->angle}, moves ? double{last->rate} : 0.0, moves ? double{last->acceleration} : 0.0};
+    BrickState state = hinged_state(store_->layout, brick, end);
+    state.phase = phase_after(*last);
     return state;
   }
   const Track track = tracks.track(static_cast<std::size_t>(piece));

@@ -24,6 +24,10 @@ void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knot
   keep(brick, start);
 }
 
+std::optional<HingedKnot> TrackStore::last_knot(std::int32_t index) const {
+  return last_hinged_knot(pieces_[static_cast<std::size_t>(index)].code);
+}
+
 Track TrackStore::track(std::size_t index) const {
   Track track;
   read(index, track);

@@ -1,6 +1,8 @@
 /// The tracks of a recording, piece by piece, and the way from a brick to its pieces.
 #pragma once
 
+#include <optional>
+
 #include "recording/blocks.h"
 #include "topple/recording.h"
 
@@ -15,7 +17,8 @@ class TrackStore {
 
   std::size_t size() const { return pieces_.size(); }
   Track track(std::size_t index) const;
-  void read(std::size_t index, Track& out) const;  ///< The same into buffers that are there already.
+  void read(std::size_t index, Track& out) const;                 ///< The same into buffers that are there already.
+  std::optional<HingedKnot> last_knot(std::int32_t index) const;  ///< Of a hinged piece.
   double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
 
   /// The last piece of a brick, and the piece of the same brick before this one; kNone if there is none.
