@@ -41,6 +41,7 @@ struct BrickKind {
   Surface surface;
   Color color;
   Shape shape = Shape::box;
+  double rolling_friction = 0.0;  ///< Of a ball on the floor: a pure number.
 };
 
 /// What two kinds do to each other, whichever touches the other.

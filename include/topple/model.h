@@ -141,6 +141,8 @@ struct HingeConfig {
 struct RigidConfig {
   // affects results
   double time_step = 0.0;  ///< 0: a share of sqrt(height / gravity) of the smallest brick [s].
+  /// No brick stands or rests: every one is stepped from the beginning on, and the run never ends by itself. For tests of structures.
+  bool every_brick_moves = false;
 };
 
 /// Choosing the config chooses the model.

@@ -10,8 +10,9 @@ namespace {
 
 constexpr Range kSpeed{0.0, 100.0};  // [m/s]
 constexpr Range kStart{0.0, 1e6};    // [s]
-constexpr double kMarble = 0.016;    // a common glass marble [m]
-constexpr double kGlass = 2500.0;    // [kg/m^3]
+constexpr Range kRolling{0.0, 1.0};
+constexpr double kMarble = 0.016;  // a common glass marble [m]
+constexpr double kGlass = 2500.0;  // [kg/m^3]
 
 }  // namespace
 
@@ -39,6 +40,8 @@ std::optional<PartPlan> read_ball(Section& section, std::vector<BrickKind>& kind
   const double volume = kPi / 6.0 * kind.height * kind.height * kind.height;
   kind.mass = read_mass(section, volume, kGlass * volume);
   kind.surface = read_surface(section, surface);
+  constexpr double kGlassOnWood = 0.005;  // the order of magnitude of hard balls on hard floors
+  kind.rolling_friction = section.number("rolling_friction", kRolling).value_or(kGlassOnWood);
   kind.color = section.color("color").value_or(Color{120, 130, 140});
   for (const BrickKind& other : kinds) {
     if (other.name == kind.name) section.problem("name", "two kinds are called \"" + kind.name + "\"");

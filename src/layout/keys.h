@@ -28,9 +28,9 @@ inline constexpr std::array<Key, 10> kWall{"at_mm", "heading_deg", "count", "cou
 inline constexpr std::array<Key, 8> kTower{"at_mm", "heading_deg", "layers", "count", "kind", "color", "color_to", "pose"};
 inline constexpr std::array<Key, 10> kPyramid{"at_mm",  "heading_deg", "count_along", "count_across", "layers",
                                               "gap_mm", "kind",        "color",       "color_to",     "pose"};
-inline constexpr std::array<Key, 13> kBall{
-    "at_mm", "heading_deg", "speed_m_s",      "at_s",           "diameter_mm",       "mass_g",           "density_kg_m3",
-    "name",  "color",       "brick_friction", "floor_friction", "brick_restitution", "floor_restitution"};
+inline constexpr std::array<Key, 14> kBall{
+    "at_mm", "heading_deg",      "speed_m_s",      "at_s",           "diameter_mm",       "mass_g",           "density_kg_m3", "name",
+    "color", "rolling_friction", "brick_friction", "floor_friction", "brick_restitution", "floor_restitution"};
 inline constexpr std::array<Key, 3> kNoise{"seed", "position_mm", "heading_deg"};
 
 }  // namespace topple::keys

@@ -30,6 +30,14 @@ class Settings {
     out = *value * scale;
   }
 
+  void flag(std::string_view key, bool& out) {
+    const Setting* setting = find(key);
+    if (setting == nullptr) return;
+    const auto* value = std::get_if<bool>(&setting->value);
+    if (value == nullptr) return wrong(*setting, "must be true or false");
+    out = *value;
+  }
+
   template <typename Value, std::size_t N>
   void choice(std::string_view key, const std::array<std::pair<std::string_view, Value>, N>& choices, Value& out) {
     const Setting* setting = find(key);
@@ -120,6 +128,7 @@ Result<ModelConfig> rigid_config(const Layout& layout) {
   RigidConfig config{.time_step = rigid::default_time_step(layout)};
   Settings settings(layout.model);
   settings.number("time_step_s", 1.0, 1e-6, 0.05, config.time_step);
+  settings.flag("every_brick_moves", config.every_brick_moves);
   if (auto checked = settings.finish("rigid"); !checked) return std::unexpected(checked.error());
   return config;
 }

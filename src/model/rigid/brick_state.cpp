@@ -71,6 +71,12 @@ Body make_body(const BrickKind& kind, BrickId id, std::uint16_t kind_index, cons
   const double h2 = kind.height * kind.height;
   body.inertia = {kind.mass * (w2 + h2) / 12.0, kind.mass * (t2 + h2) / 12.0, kind.mass * (t2 + w2) / 12.0};
   body.radius = 0.5 * std::sqrt(t2 + w2 + h2);
+  if (kind.shape == Shape::ball) {
+    body.round = true;
+    body.radius = body.half.x;
+    const double inertia = 0.4 * kind.mass * body.radius * body.radius;
+    body.inertia = {inertia, inertia, inertia};
+  }
   body.id = id;
   body.kind = kind_index;
   refresh(body);

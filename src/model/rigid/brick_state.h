@@ -23,6 +23,7 @@ struct Body {
   double radius = 0.0;        ///< Of the sphere around it [m].
   BrickId id = kNoBrick;
   std::uint16_t kind = 0;
+  bool round = false;  ///< A ball; each of `half` is its radius.
 };
 
 /// Sets what follows from the pose.

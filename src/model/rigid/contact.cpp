@@ -1,5 +1,7 @@
 #include "model/rigid/contact.h"
 
+#include "model/rigid/ball.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -180,6 +182,7 @@ struct BestAxis {
 }  // namespace
 
 void touch_floor(const Body& a, double margin, Manifold& out) {
+  if (a.round) return touch_floor_with_ball(a, margin, out);
   out.normal = {0.0, 0.0, 1.0};
   out.reference = Reference::b;
   out.count = 0;
@@ -197,6 +200,7 @@ void touch_floor(const Body& a, double margin, Manifold& out) {
 }
 
 void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifold& out) {
+  if (a.round || b.round) return touch_ball(a, b, margin, out);
   out.count = 0;
   const BoxPair p = pair_up(a, b);
   const auto separation_on = [&p](int k) { return k < kFirstEdgeAxis ? face_separation(p, k) : edge_separation(p, k); };

@@ -26,11 +26,11 @@ struct Manifold {
   std::array<TouchPoint, 8> points;
 };
 
-/// Points of a box and the floor z = 0 no farther than `margin` [m] apart; the normal is up and b is the floor.
+/// Points of a box (or a ball) and the floor z = 0 no farther than `margin` [m] apart; the normal is up and b is the floor.
 void touch_floor(const Body& a, double margin, Manifold& out);
 
-/// Points of two boxes no farther than `margin` [m] apart. `axis` remembers from call to call which of the 15 axes parted the boxes,
-/// or gave the normal, so that most calls end early; it starts at -1.
+/// Points of two boxes (or balls) no farther than `margin` [m] apart. `axis` remembers from call to call which of the 15 axes parted the
+/// boxes, or gave the normal, so that most calls end early; it starts at -1.
 void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifold& out);
 
 }  // namespace topple::rigid

@@ -8,22 +8,36 @@
 #include <cmath>
 #include <limits>
 
+#include "model/rigid/ball.h"
 #include "model/rigid/wavefront.h"
 
 namespace topple::rigid {
 
 namespace {
 
-// Copies what two touches share: points are the same where their features are.
-void inherit(const Touch& before, Touch& now) {
+// What a point knows of itself from before: that of the same feature, or else of the nearest point within `near` [m]. Faces that lie flush
+// on each other swap their features at every rounding, and a stack stands by what its points remember.
+const PointMemory* recall(const Touch& before, const TouchPoint& point, double near) {
+  const PointMemory* same = nullptr;
+  const PointMemory* found = nullptr;
+  double nearest = near * near;
+  for (int k = 0; k < before.manifold.count; ++k) {
+    const TouchPoint& old = before.manifold.points[static_cast<std::size_t>(k)];
+    const PointMemory& memory = before.memory[static_cast<std::size_t>(k)];
+    if (old.feature == point.feature) same = &memory;
+    const Vec3 apart = old.position - point.position;
+    if (dot(apart, apart) >= nearest) continue;
+    nearest = dot(apart, apart);
+    found = &memory;
+  }
+  return same != nullptr ? same : found;
+}
+
+// Copies what two touches share.
+void inherit(const Touch& before, double near, Touch& now) {
   for (int i = 0; i < now.manifold.count; ++i) {
-    PointMemory& memory = now.memory[static_cast<std::size_t>(i)];
-    memory = PointMemory{};
-    for (int k = 0; k < before.manifold.count; ++k) {
-      if (before.manifold.points[static_cast<std::size_t>(k)].feature == now.manifold.points[static_cast<std::size_t>(i)].feature) {
-        memory = before.memory[static_cast<std::size_t>(k)];
-      }
-    }
+    const PointMemory* memory = recall(before, now.manifold.points[static_cast<std::size_t>(i)], near);
+    now.memory[static_cast<std::size_t>(i)] = memory != nullptr ? *memory : PointMemory{};
   }
 }
 
@@ -113,6 +127,7 @@ void Front::kick(double time) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving) continue;
     bodies_[i].velocity = bodies_[i].velocity + time * gravity;
+    if (bodies_[i].round) slow_ball(i, time);
   }
   for (const ActiveForce& force : forces_) {
     const int place = place_of(force.brick);
@@ -123,6 +138,13 @@ void Front::kick(double time) {
   }
 }
 
+// A ball that touches the floor loses a little of its rolling.
+void Front::slow_ball(std::size_t place, double time) {
+  Body& ball = bodies_[place];
+  if (ball.position.z - ball.half.x > world_.tolerances.touching * members_[place].thin) return;
+  resist_rolling(ball, world_.layout.kinds[ball.kind].rolling_friction, world_.gravity, time);
+}
+
 void Front::solve_contacts() {
   solver_.apply_guess(bodies_);
   sweep();
@@ -130,7 +152,7 @@ void Front::solve_contacts() {
 
 void Front::sweep() {
   const double tolerance = world_.tolerances.velocity * std::sqrt(world_.gravity * world_.smallest);
-  solver_.solve(bodies_, {tolerance, world_.tolerances.sweeps});
+  solver_.solve(bodies_, {tolerance, world_.tolerances.sweeps, world_.stacked});
 }
 
 void Front::positions(double time) {
@@ -182,7 +204,7 @@ void Front::find_touches(bool first) {
       touch.manifold.count = 0;
       if (dot(apart, apart) < reach * reach) touch_boxes(a, b, world_.tolerances.margin * thin, touch.axis, touch.manifold);
     }
-    inherit(before_, touch);
+    inherit(before_, world_.stacked ? world_.tolerances.touching * thin : 0.0, touch);
     for (int k = 0; k < touch.manifold.count; ++k) {
       PointMemory& memory = touch.memory[static_cast<std::size_t>(k)];
       memory.fresh = false;

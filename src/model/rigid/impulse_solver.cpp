@@ -27,6 +27,8 @@ void apply(Body& body, const Vec3& arm, const Vec3& impulse) {
   body.angular_velocity = body.angular_velocity + body.inverse_inertia * cross(arm, impulse);
 }
 
+}  // namespace
+
 void apply(std::span<Body> bodies, const ContactRow& row, double n, double s, double t) {
   const Vec3 impulse = n * row.normal + s * row.along + t * row.across;
   apply(bodies[static_cast<std::size_t>(row.a)], row.arm_a, impulse);
@@ -34,6 +36,8 @@ void apply(std::span<Body> bodies, const ContactRow& row, double n, double s, do
   Body& b = bodies[static_cast<std::size_t>(row.b)];
   if (b.inverse_mass > 0.0) apply(b, row.arm_b, -impulse);
 }
+
+namespace {
 
 void set_frame(ContactRow& row, std::span<const Body> bodies) {
   const Body& a = bodies[static_cast<std::size_t>(row.a)];
@@ -59,7 +63,11 @@ void set_frame(ContactRow& row, std::span<const Body> bodies) {
   row.k_cc = dot(row.across, kc);
 }
 
+// A ball's point is always the nearest one, however it turns: for the distance it is as if it did not.
+Vec3 spin_of(const Body& body) { return body.round ? Vec3{} : body.angular_velocity; }
+
 Vec3 centripetal(const Body& body, const Vec3& arm) {
+  if (body.round) return {};
   return cross(body.angular_velocity, cross(body.angular_velocity, arm)) + cross(body.gyroscopic, arm);
 }
 
@@ -71,10 +79,10 @@ Vec3 curvature(const ContactRow& row, const Manifold& manifold, std::span<const 
   if (row.b == kFloor) return bend;
   const Body& b = bodies[static_cast<std::size_t>(row.b)];
   bend = bend - centripetal(b, row.arm_b);
-  Vec3 turning = b.angular_velocity;
-  if (manifold.reference == Reference::a) turning = a.angular_velocity;
-  if (manifold.reference == Reference::edges) turning = 0.5 * (a.angular_velocity + b.angular_velocity);
-  const Vec3 slip = velocity_at(a, row.arm_a) - velocity_at(b, row.arm_b);
+  Vec3 turning = spin_of(b);
+  if (manifold.reference == Reference::a) turning = spin_of(a);
+  if (manifold.reference == Reference::edges) turning = 0.5 * (spin_of(a) + spin_of(b));
+  const Vec3 slip = (a.velocity + cross(spin_of(a), row.arm_a)) - (b.velocity + cross(spin_of(b), row.arm_b));
   const double turned = 2.0 * dot(cross(turning, row.normal), slip);
   return bend + turned * row.normal;
 }
@@ -184,16 +192,20 @@ void ImpulseSolver::apply_guess(std::span<Body> bodies) {
 }
 
 void ImpulseSolver::solve(std::span<Body> bodies, const SolveLimits& limits) {
-  int sweeps = 0;
-  while (sweeps < limits.sweeps) {
+  constexpr int kSweepsBeforeNewton = 24;
+  constexpr double kLeastPenalty = 1.0, kFirstPenalty = 1e4, kMostPenalty = 1e5;
+  NewtonSolver::Effort effort{kFirstPenalty, limits.tolerance};
+  for (int sweeps = 0; sweeps < limits.sweeps; ++sweeps) {
     double change = 0.0;
     if (sweeps % 2 == 0) {
       for (std::size_t i = 0; i < rows_.size(); ++i) change = std::max(change, solve_row(rows_[i], bodies));
     } else {
       for (std::size_t i = rows_.size(); i-- > 0;) change = std::max(change, solve_row(rows_[i], bodies));
     }
-    ++sweeps;
     if (change <= limits.tolerance) break;
+    if (!limits.stacked || sweeps < kSweepsBeforeNewton) continue;
+    const bool found = newton_.improve(rows_, bodies, effort);
+    effort.penalty = found ? std::min(10.0 * effort.penalty, kMostPenalty) : std::max(0.1 * effort.penalty, kLeastPenalty);
   }
 }
 

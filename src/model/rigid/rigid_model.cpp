@@ -20,7 +20,9 @@ class RigidModel final : public Model {
   RigidModel(const Layout& layout, const RigidConfig& config)
       : world_(layout), step_(config.time_step > 0.0 ? config.time_step : default_time_step(layout)) {
     world_.step = step_;
+    world_.every_brick_moves = config.every_brick_moves;
     plan_pushes();
+    if (config.every_brick_moves) wake_all();
   }
 
   Status step() override;
@@ -33,6 +35,7 @@ class RigidModel final : public Model {
 
  private:
   void plan_pushes();
+  void wake_all();
   void begin_pushes(double end);
   Wave& front_of(BrickId brick);
   void join(std::size_t number);
@@ -63,13 +66,24 @@ void RigidModel::plan_pushes() {
   std::stable_sort(moments_.begin(), moments_.end(), [](const PushMoment& l, const PushMoment& r) { return l.time < r.time; });
 }
 
+void RigidModel::wake_all() {
+  for (BrickId brick = 0; brick < world_.layout.brick_count(); ++brick) {
+    if (brick == 0) fronts_.push_back(std::make_unique<Front>(world_, 0));
+    fronts_[0]->wake(brick, 0.0);
+  }
+}
+
 Wave& RigidModel::front_of(BrickId brick) {
   const std::int32_t number = world_.front[static_cast<std::size_t>(brick)];
   if (number != kNoFront) return *fronts_[static_cast<std::size_t>(number)];
   const auto free = std::find(fronts_.begin(), fronts_.end(), nullptr);
   const auto at = static_cast<std::size_t>(free - fronts_.begin());
   if (free == fronts_.end()) fronts_.emplace_back();
-  fronts_[at] = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(at), brick);
+  if (world_.stacked || world_.balls) {
+    fronts_[at] = std::make_unique<Front>(world_, static_cast<std::int32_t>(at));
+  } else {
+    fronts_[at] = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(at), brick);
+  }
   return *fronts_[at];
 }
 
@@ -187,14 +201,16 @@ std::span<const Contact> RigidModel::contacts() const {
 
 double default_time_step(const Layout& layout) {
   double longest = std::numeric_limits<double>::infinity();
-  for (const BrickKind& kind : layout.kinds) longest = std::min(longest, std::max({kind.height, kind.width, kind.thickness}));
+  // A ball has no fall of its own; only where there is nothing else it gives the measure.
+  const bool only_balls =
+      std::all_of(layout.kinds.begin(), layout.kinds.end(), [](const BrickKind& kind) { return kind.shape == Shape::ball; });
+  for (const BrickKind& kind : layout.kinds) {
+    if (kind.shape == Shape::box || only_balls) longest = std::min(longest, std::max({kind.height, kind.width, kind.thickness}));
+  }
   return 0.05 * std::sqrt(longest / layout.gravity);
 }
 
 Result<std::unique_ptr<Model>> make_rigid_model(const Layout& layout, const RigidConfig& config) {
-  for (const BrickKind& kind : layout.kinds) {
-    if (kind.shape == Shape::ball) return failure(layout.name + ": model rigid: \"" + kind.name + "\" is a ball; no model rolls one yet.");
-  }
   const double most = 4.0 * default_time_step(layout);
   if (config.time_step > most) {
     std::array<char, 160> words{};

@@ -64,6 +64,10 @@ void Front::set_moving(int place) {
   member.moving = true;
   member.quiet = 0.0;
   member.tilt_cosine = (body.axes * member.local_up).z;
+  if (body.round) {  // It has no tilt: nothing arrives at it, and it does not fall.
+    world_.arrived[static_cast<std::size_t>(body.id)] = 1;
+    member.landed = true;
+  }
   ++moving_;
   Touch floor;
   floor.a = place;
@@ -74,6 +78,33 @@ void Front::set_moving(int place) {
 }
 
 void Front::wake(BrickId brick, double /*time*/) {
+  rouse(brick);
+  if (world_.stacked) wake_structure(brick);
+}
+
+// Bricks of a structure carry and clamp each other: as obstacles that cannot move they would hold what is struck for ever. So all that
+// stand and touch, one by the other, begin to move together.
+void Front::wake_structure(BrickId brick) {
+  std::vector<BrickId>& roused = roused_;
+  roused.assign(1, brick);
+  for (std::size_t i = 0; i < roused.size(); ++i) {
+    const int place = place_of(roused[i]);
+    const std::size_t known = roused.size();
+    for (const Touch& touch : touches_) {
+      if (touch.b == kFloor || !touch.bearing || (touch.a != place && touch.b != place)) continue;
+      const auto other = static_cast<std::size_t>(touch.a == place ? touch.b : touch.a);
+      const BrickId id = bodies_[other].id;
+      if (members_[other].moving || members_[other].ghost || world_.phase[static_cast<std::size_t>(id)] != Phase::standing) continue;
+      roused.push_back(id);
+    }
+    for (std::size_t k = known; k < roused.size(); ++k) {
+      rouse(roused[k]);
+      settle_on_floor(place_of(roused[k]));
+    }
+  }
+}
+
+void Front::rouse(BrickId brick) {
   int place = place_of(brick);
   if (place < 0) place = add(brick);
   if (members_[static_cast<std::size_t>(place)].moving) return;
@@ -224,6 +255,7 @@ void Front::wake_unsupported(double now) {
 }
 
 void Front::retire(double time) {
+  if (world_.every_brick_moves) return;
   const Tolerances& limits = world_.tolerances;
   bool any = false;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -53,6 +53,8 @@ class Front final : public Wave {
   int place_of(BrickId brick) const;
   void retire(double time);
   int add(BrickId brick);
+  void rouse(BrickId brick);
+  void wake_structure(BrickId brick);
   void set_moving(int place);
   void mark_borne_by(int place);
   void list_neighbours(int place);
@@ -61,6 +63,7 @@ class Front final : public Wave {
   void order_touches();
   double part(double begin, double time, bool may_cut);
   void kick(double time);
+  void slow_ball(std::size_t place, double time);
   void solve_contacts();
   void sweep();
   void move(double time);
@@ -97,6 +100,7 @@ class Front final : public Wave {
   std::vector<Touch> touches_before_;
   std::vector<ActiveForce> forces_;
   std::vector<BrickId> near_;
+  std::vector<BrickId> roused_;
   std::vector<int> renamed_;
   struct Struck {
     BrickId brick, by;

@@ -14,6 +14,8 @@ World::World(const Layout& source) : layout(source), neighbours(source), gravity
   place.assign(count, 0);
   smallest = std::numeric_limits<double>::infinity();
   for (const BrickKind& kind : source.kinds) smallest = std::min(smallest, std::max({kind.height, kind.width, kind.thickness}));
+  stacked = std::any_of(source.bricks.begin(), source.bricks.end(), [](const Brick& brick) { return brick.foot.z > 0.0; });
+  balls = std::any_of(source.kinds.begin(), source.kinds.end(), [](const BrickKind& kind) { return kind.shape == Shape::ball; });
   pose.reserve(count);
   for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing_pose(source, brick));
 }

@@ -42,6 +42,9 @@ struct World {
   Tolerances tolerances;
   double resting_energy = 0.0;  ///< Potential, of bricks that rest [J].
   double push_work = 0.0;       ///< [J]
+  bool stacked = false;         ///< Some bricks stand on others.
+  bool balls = false;           ///< Some are balls.
+  bool every_brick_moves = false;
 };
 
 /// Potential energy of a brick against how it was put down [J].

@@ -1,0 +1,310 @@
+#include "model/rigid/newton_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace topple::rigid {
+
+namespace {
+
+constexpr int kNewtonSteps = 40;
+constexpr int kTrials = 40;           // Of the length of a step.
+constexpr int kRounds = 8;            // In which the limits of friction follow the normal impulses.
+constexpr double kSettled = 0.01;     // Of the tolerance: the last step.
+constexpr double kBeyondLimit = 0.1;  // Of the tolerance: what friction may be beyond its limit.
+
+constexpr std::size_t kWide = 6;  // Velocities of a brick.
+
+// How velocities of a brick, linear and angular, move the point: rows are normal, along, across.
+std::array<double, 18> motion_of_point(const ContactRow& row, const Vec3& arm, double sign) {
+  std::array<double, 18> out{};
+  const std::array<const Vec3*, 3> directions{&row.normal, &row.along, &row.across};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 linear = sign * *directions[i];
+    const Vec3 angular = cross(arm, linear);
+    const std::array<double, 6> six{linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
+    std::copy(six.begin(), six.end(), out.begin() + static_cast<std::ptrdiff_t>(kWide * i));
+  }
+  return out;
+}
+
+std::array<double, 10> mass_matrix(const Body& body) {
+  const Mat3 inertia = conjugated(body.axes, body.inertia);
+  return {1.0 / body.inverse_mass, inertia.r0.x, inertia.r0.y, inertia.r0.z, inertia.r1.y, inertia.r1.z, inertia.r2.z};
+}
+
+// out = M v for one brick.
+std::array<double, 6> times(const std::array<double, 10>& m, std::span<const double> v) {
+  return {m[0] * v[0],
+          m[0] * v[1],
+          m[0] * v[2],
+          m[1] * v[3] + m[2] * v[4] + m[3] * v[5],
+          m[2] * v[3] + m[4] * v[4] + m[5] * v[5],
+          m[3] * v[3] + m[5] * v[4] + m[6] * v[5]};
+}
+
+double product(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+std::span<const double> six(std::span<const double> all, int number) {
+  return all.subspan(kWide * static_cast<std::size_t>(number), kWide);
+}
+std::span<double> six(std::span<double> all, int number) { return all.subspan(kWide * static_cast<std::size_t>(number), kWide); }
+
+// Sum over one brick's side of a point.
+void add_motion(const std::array<double, 18>& j, std::span<const double> v, Vec3& w) {
+  for (std::size_t k = 0; k < kWide; ++k) {
+    w.x += j[k] * v[k];
+    w.y += j[kWide + k] * v[k];
+    w.z += j[2 * kWide + k] * v[k];
+  }
+}
+
+// block += left^T D right, D the point's 3 x 3 stiffness; the block's row is that of `left`.
+void add_stiffness(const std::array<double, 18>& left, const std::array<double, 18>& right, const std::array<double, 4>& d, Block6& block) {
+  for (std::size_t c = 0; c < kWide; ++c) {
+    const double n = d[0] * right[c];
+    const double s = d[1] * right[kWide + c] + d[2] * right[2 * kWide + c];
+    const double t = d[2] * right[kWide + c] + d[3] * right[2 * kWide + c];
+    for (std::size_t r = 0; r < kWide; ++r) block[kWide * c + r] += left[r] * n + left[kWide + r] * s + left[2 * kWide + r] * t;
+  }
+}
+
+}  // namespace
+
+// The bricks that move in the order of Cuthill and McKee, reversed [Cuthill1969]: so a stack's matrix is as narrow as the stack.
+void NewtonSolver::number_bodies(std::span<const ContactRow> rows, std::span<const Body> bodies) {
+  const auto moves = [&](int body) { return body != kFloor && bodies[static_cast<std::size_t>(body)].inverse_mass > 0.0; };
+  number_.assign(bodies.size(), -1);
+  if (near_.size() < bodies.size()) near_.resize(bodies.size());
+  for (auto& near : near_) near.clear();
+  const auto link = [this](int one, int other) {
+    auto& near = near_[static_cast<std::size_t>(one)];
+    if (std::find(near.begin(), near.end(), other) == near.end()) near.push_back(other);
+  };
+  for (const ContactRow& row : rows) {
+    if (moves(row.a)) link(row.a, moves(row.b) ? row.b : row.a);
+    if (moves(row.b)) link(row.b, moves(row.a) ? row.a : row.b);
+  }
+  const auto degree = [this](int body) { return near_[static_cast<std::size_t>(body)].size(); };
+  order_.clear();
+  std::size_t done = 0;
+  while (true) {
+    // Each heap of bricks from the one with the fewest neighbours.
+    int from = -1;
+    for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
+      if (number_[static_cast<std::size_t>(body)] >= 0 || degree(body) == 0) continue;
+      if (from < 0 || degree(body) < degree(from)) from = body;
+    }
+    if (from < 0) break;
+    number_[static_cast<std::size_t>(from)] = 0;
+    order_.push_back(from);
+    for (; done < order_.size(); ++done) {
+      const std::size_t begin = order_.size();
+      for (const int other : near_[static_cast<std::size_t>(order_[done])]) {
+        if (number_[static_cast<std::size_t>(other)] >= 0) continue;
+        number_[static_cast<std::size_t>(other)] = 0;
+        order_.push_back(other);
+      }
+      std::stable_sort(order_.begin() + static_cast<std::ptrdiff_t>(begin), order_.end(),
+                       [&](int l, int r) { return degree(l) < degree(r); });
+    }
+  }
+  std::reverse(order_.begin(), order_.end());
+  first_.resize(order_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i) number_[static_cast<std::size_t>(order_[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    first_[i] = static_cast<int>(i);
+    for (const int other : near_[static_cast<std::size_t>(order_[i])])
+      first_[i] = std::min(first_[i], number_[static_cast<std::size_t>(other)]);
+  }
+}
+
+void NewtonSolver::begin(std::span<const ContactRow> rows, std::span<const Body> bodies, double penalty) {
+  number_bodies(rows, bodies);
+  mass_.clear();
+  start_.clear();
+  for (const int body : order_) {
+    const Body& b = bodies[static_cast<std::size_t>(body)];
+    mass_.push_back(mass_matrix(b));
+    start_.insert(start_.end(),
+                  {b.velocity.x, b.velocity.y, b.velocity.z, b.angular_velocity.x, b.angular_velocity.y, b.angular_velocity.z});
+  }
+  velocity_ = start_;
+  gradient_.resize(start_.size());
+  step_.resize(start_.size());
+  probe_.resize(start_.size());
+  parts_.resize(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ContactRow& row = rows[i];
+    RowPart& part = parts_[i];
+    part.a = motion_of_point(row, row.arm_a, 1.0);
+    if (row.b != kFloor) part.b = motion_of_point(row, row.arm_b, -1.0);
+    part.penalty_n = penalty / row.k_nn;
+    part.penalty_t = penalty / std::max(row.k_aa, row.k_cc);
+    part.radius = row.friction * std::max(row.n0 + row.n, 0.0);
+  }
+}
+
+// What each point's penalty says at these velocities; and how it answers to small changes of them.
+void NewtonSolver::try_impulses(std::span<const ContactRow> rows, std::span<const double> velocity) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ContactRow& row = rows[i];
+    RowPart& part = parts_[i];
+    Vec3 w{row.bias, row.bias_along, row.bias_across};
+    const int a = number_[static_cast<std::size_t>(row.a)], b = row.b == kFloor ? -1 : number_[static_cast<std::size_t>(row.b)];
+    if (a >= 0) add_motion(part.a, six(velocity, a), w);
+    if (b >= 0) add_motion(part.b, six(velocity, b), w);
+    const double n = row.n - part.penalty_n * w.x;
+    part.n = std::max(n, row.floor_impulse);
+    part.stiffness = {n > row.floor_impulse ? part.penalty_n : 0.0, part.penalty_t, 0.0, part.penalty_t};
+    const double s = row.s0 + row.s - part.penalty_t * w.y, t = row.t0 + row.t - part.penalty_t * w.z;
+    const double size = std::sqrt(s * s + t * t);
+    part.s = s - row.s0;
+    part.t = t - row.t0;
+    if (size <= part.radius) continue;
+    const double share = size > 0.0 ? part.radius / size : 0.0;
+    part.s = share * s - row.s0;
+    part.t = share * t - row.t0;
+    const double ds = size > 0.0 ? s / size : 0.0, dt = size > 0.0 ? t / size : 0.0;
+    const double across = share * part.penalty_t;
+    part.stiffness[1] = across * (1.0 - ds * ds);
+    part.stiffness[2] = -across * ds * dt;
+    part.stiffness[3] = across * (1.0 - dt * dt);
+  }
+}
+
+// M (v - start) - J^T (trial impulses - those that act already).
+void NewtonSolver::gradient(std::span<const ContactRow> rows, std::span<const double> velocity, std::span<double> out) const {
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    std::array<double, 6> change{};
+    for (std::size_t k = 0; k < kWide; ++k) change[k] = velocity[kWide * i + k] - start_[kWide * i + k];
+    const std::array<double, 6> momentum = times(mass_[i], change);
+    std::copy(momentum.begin(), momentum.end(), six(out, static_cast<int>(i)).begin());
+  }
+  const auto pull = [](const std::array<double, 18>& j, const Vec3& impulse, std::span<double> g) {
+    for (std::size_t k = 0; k < kWide; ++k) g[k] -= j[k] * impulse.x + j[kWide + k] * impulse.y + j[2 * kWide + k] * impulse.z;
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ContactRow& row = rows[i];
+    const RowPart& part = parts_[i];
+    const Vec3 impulse{part.n - row.n, part.s - row.s, part.t - row.t};
+    const int a = number_[static_cast<std::size_t>(row.a)], b = row.b == kFloor ? -1 : number_[static_cast<std::size_t>(row.b)];
+    if (a >= 0) pull(part.a, impulse, six(out, a));
+    if (b >= 0) pull(part.b, impulse, six(out, b));
+  }
+}
+
+void NewtonSolver::assemble(std::span<const ContactRow> rows) {
+  matrix_.shape(first_);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const std::array<double, 10>& m = mass_[i];
+    Block6& block = matrix_.at(static_cast<int>(i), static_cast<int>(i));
+    block[0] = block[7] = block[14] = m[0];
+    block[21] = m[1];
+    block[22] = block[27] = m[2];
+    block[23] = block[33] = m[3];
+    block[28] = m[4];
+    block[29] = block[34] = m[5];
+    block[35] = m[6];
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ContactRow& row = rows[i];
+    const RowPart& part = parts_[i];
+    const int a = number_[static_cast<std::size_t>(row.a)], b = row.b == kFloor ? -1 : number_[static_cast<std::size_t>(row.b)];
+    if (a >= 0) add_stiffness(part.a, part.a, part.stiffness, matrix_.at(a, a));
+    if (b >= 0) add_stiffness(part.b, part.b, part.stiffness, matrix_.at(b, b));
+    if (a >= 0 && b >= 0 && a > b) add_stiffness(part.a, part.b, part.stiffness, matrix_.at(a, b));
+    if (a >= 0 && b >= 0 && b > a) add_stiffness(part.b, part.a, part.stiffness, matrix_.at(b, a));
+  }
+}
+
+// Of the energy along the step, at this share of it.
+double NewtonSolver::slope(std::span<const ContactRow> rows, double share) {
+  for (std::size_t i = 0; i < probe_.size(); ++i) probe_[i] = velocity_[i] + share * step_[i];
+  try_impulses(rows, probe_);
+  gradient(rows, probe_, gradient_);
+  return product(gradient_, step_);
+}
+
+// The share of the step at which the energy is least; it is convex, so its slope changes sign once.
+double NewtonSolver::search(std::span<const ContactRow> rows) {
+  double low = 0.0, high = 1.0;
+  const double at_low = product(gradient_, step_);
+  const double at_high = slope(rows, 1.0);
+  constexpr double kFlat = 0.1;
+  if (at_high <= kFlat * std::abs(at_low)) return 1.0;
+  double share = 1.0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    share = 0.5 * (low + high);
+    const double here = slope(rows, share);
+    if (std::abs(here) <= kFlat * std::abs(at_low)) break;
+    (here < 0.0 ? low : high) = share;
+  }
+  return share;
+}
+
+// The step of least energy from here; returns how fast it moves the fastest corner [m/s], or a negative number if there is none.
+double NewtonSolver::find_step(std::span<const ContactRow> rows, std::span<const Body> bodies) {
+  try_impulses(rows, velocity_);
+  gradient(rows, velocity_, gradient_);
+  assemble(rows);
+  if (!matrix_.factor()) return -1.0;
+  for (std::size_t k = 0; k < step_.size(); ++k) step_[k] = -gradient_[k];
+  matrix_.solve(step_);
+  double largest = 0.0;
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const double* v = &step_[kWide * k];
+    const double radius = bodies[static_cast<std::size_t>(order_[k])].radius;
+    largest = std::max(largest, norm({v[0], v[1], v[2]}) + radius * norm({v[3], v[4], v[5]}));
+  }
+  return largest;
+}
+
+// Sets the limits of friction by the normal impulses found; returns whether some friction was beyond its own.
+bool NewtonSolver::limit_friction(std::span<const ContactRow> rows, double tolerance) {
+  try_impulses(rows, velocity_);
+  bool beyond = false;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ContactRow& row = rows[k];
+    RowPart& part = parts_[k];
+    const double s = row.s0 + part.s, t = row.t0 + part.t;
+    part.radius = row.friction * std::max(row.n0 + part.n, 0.0);
+    beyond = beyond || (std::sqrt(s * s + t * t) - part.radius) * row.k_aa > kBeyondLimit * tolerance;
+  }
+  return beyond;
+}
+
+bool NewtonSolver::improve(std::span<ContactRow> rows, std::span<Body> bodies, const Effort& effort) {
+  begin(rows, bodies, effort.penalty);
+  bool settled = false;
+  int rounds = 0;
+  for (int i = 0; i < kNewtonSteps && !settled; ++i) {
+    const double largest = find_step(rows, bodies);
+    if (!(largest >= 0.0)) return false;
+    settled = largest < kSettled * effort.tolerance;
+    const double share = settled ? 1.0 : search(rows);
+    for (std::size_t k = 0; k < step_.size(); ++k) velocity_[k] += share * step_[k];
+    if (settled && rounds < kRounds && limit_friction(rows, effort.tolerance)) {
+      settled = false;
+      ++rounds;
+    }
+  }
+  if (!settled) return false;
+  try_impulses(rows, velocity_);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    ContactRow& row = rows[i];
+    const RowPart& part = parts_[i];
+    apply(bodies, row, part.n - row.n, part.s - row.s, part.t - row.t);
+    row.n = part.n;
+    row.s = part.s;
+    row.t = part.t;
+  }
+  return true;
+}
+
+}  // namespace topple::rigid
