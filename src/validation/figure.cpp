@@ -99,8 +99,8 @@ void draw_series(Drawing& drawing, const Series& series, const Prediction& predi
 
 void draw_points(Drawing& drawing, const Points& points, std::size_t number) {
   if (points.line) {
-    std::vector<std::vector<double>> rows;
-    for (std::size_t i = 0; i < points.x.size(); ++i) rows.push_back({points.x[i], points.y[i]});
+    std::vector<std::vector<double>> rows(points.x.size());
+    for (std::size_t i = 0; i < points.x.size(); ++i) rows[i] = {points.x[i], points.y[i]};
     drawing.add(rows, "with lines lc rgb '#444444' lw 2.2 dt (2,3)", points.label);
     return;
   }

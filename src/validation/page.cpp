@@ -100,6 +100,7 @@ std::string comparison_table(const SourceReport& report) {
 
 std::string claim_table(const SourceReport& report) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(report.claims.size());
   for (const ClaimCheck& claim : report.claims) {
     rows.push_back({claim.holds ? "✓" : "✗", escaped(claim.name), escaped(claim.found), escaped(claim.why)});
   }

@@ -53,7 +53,8 @@ Result<std::vector<fs::path>> folders_of(const ValidationConfig& config) {
   std::vector<fs::path> chosen;
   std::string known;
   for (const fs::path& folder : folders) {
-    known += (known.empty() ? "" : ", ") + folder.filename().string();
+    if (!known.empty()) known += ", ";
+    known += folder.filename().string();
     if (std::find(config.names.begin(), config.names.end(), folder.filename().string()) != config.names.end()) chosen.push_back(folder);
   }
   for (const std::string& name : config.names) {
@@ -170,6 +171,7 @@ void Validation::State::judge() {
       std::vector<Outcome> outcomes;
       for (const Planned& planned : plan(series)) outcomes.push_back(*kept.find(*name_of(planned)));
       std::vector<const Outcome*> pointers;
+      pointers.reserve(outcomes.size());
       for (const Outcome& outcome : outcomes) pointers.push_back(&outcome);
       one.predictions.push_back(gather(series, pointers));
     }
