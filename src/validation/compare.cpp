@@ -122,7 +122,8 @@ std::string point_fits(const Contest& contest) {
 }
 
 std::string miss_words(double worst) {
-  return std::isnan(worst) ? "the wave dies where it was seen to run" : "off by " + percent(worst) + " at worst";
+  return std::isnan(worst) ? "no prediction where it was measured (the wave dies, or the model refuses such a row)"
+                           : "off by " + percent(worst) + " at worst";
 }
 
 std::string sentence(const Contest& contest, const Comparison& comparison, const Misfit& standard, const Best& best) {

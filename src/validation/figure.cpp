@@ -12,7 +12,7 @@
 namespace topple::validation {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 400;  // In steps of 1/40 cm: 16 by 10 cm, the width of a page's text.
+constexpr int kWidth = 640, kHeight = 440;  // In steps of 1/40 cm: 16 by 11 cm, the width of a page's text.
 
 /// In quotes for gnuplot, where none of its marks means anything.
 std::string quoted(const std::string& text) {
@@ -132,10 +132,7 @@ Result<void> draw_figure(const Judged& judged, const std::filesystem::path& path
   script->line(range("x", figure.x_range) + range("y", figure.y_range));
   if (figure.log_x) script->line("set logscale x");
   if (figure.log_y) script->line("set logscale y");
-  // Quoted so that nothing but a place can be said.
-  const bool place_only = figure.key.find_first_not_of("abcdefghijklmnopqrstuvwxyz ") == std::string::npos;
-  script->line("set key " + (place_only ? figure.key : std::string("top right")) +
-               " opaque\nset bars 0.6\nset offsets graph 0.03,0.03,0.05,0.02");
+  script->line("set key bmargin center horizontal maxcols 3 samplen 2.4 spacing 1.2\nset bars 0.6\nset offsets graph 0.03,0.03,0.05,0.02");
   Drawing drawing(*script);
   for (const Look look : {Look::band, Look::line, Look::points}) {
     for (std::size_t i = 0; i < source.series.size(); ++i) {

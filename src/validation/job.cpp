@@ -127,7 +127,7 @@ Outcome measure(const Job& job, const Recording& recording) {
   return outcome;
 }
 
-Result<Recording> run_once(const Job& job, const std::string& x, const std::function<bool()>& stopped) {
+Result<Recording> run_once(const Job& job, const std::string& x, const std::function<bool()>& stopped, bool* refused = nullptr) {
   std::vector<std::string> overrides = job.overrides;
   for (std::string& one : overrides) {
     if (const std::size_t at = one.find("{x}"); at != std::string::npos) one.replace(at, 3, x);
@@ -140,6 +140,11 @@ Result<Recording> run_once(const Job& job, const std::string& x, const std::func
   if (job.until > 0.0) config.until = job.until;
   config.recorder.tolerance = layout->brick_count() <= kFewBricks ? kFineTolerance : kPlainTolerance;
   config.watch = [&stopped](const RunProgress&, const Recording&) { return !stopped(); };
+  // A model may refuse a layout that it does not follow; that is no prediction, not a mistake.
+  if (refused != nullptr && !make_model(*layout, *model)) {
+    *refused = true;
+    return failure("");
+  }
   Result<Recording> recording = simulate(std::move(*layout), *model, config);
   if (recording && recording->end().reason == EndReason::not_finite) return failure(job.scene + ": " + recording->end().words);
   if (recording && recording->end().reason == EndReason::stopped) return failure("");
@@ -209,7 +214,9 @@ std::uint64_t Job::key() const {
 
 Result<Outcome> run_job(const Job& job, const std::function<bool()>& stopped) {
   if (!job.least.empty()) return seek_least(job, stopped);
-  const Result<Recording> recording = run_once(job, "", stopped);
+  bool refused = false;
+  const Result<Recording> recording = run_once(job, "", stopped, &refused);
+  if (refused) return Outcome{.numbers = {{"refused", 1.0}}, .profile = {}};
   if (!recording) return std::unexpected(recording.error());
   return measure(job, *recording);
 }

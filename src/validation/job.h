@@ -26,7 +26,8 @@ struct Job {
 };
 
 /// By name: speed_m_s, tilt_speed_m_s, interval_ms, interval_sd_ms, duration_s, fallen, failed, reached, reached_m, final_tilt_deg,
-/// contact_tilt_deg, arrival_ms, landed_ms, least. Not a number where a run has none.
+/// contact_tilt_deg, arrival_ms, landed_ms, least. Not a number where a run has none; only `refused` where the
+/// model does not follow such a layout.
 struct Outcome {
   std::map<std::string, double> numbers;
   std::vector<double> profile;  ///< Of brick 1, 2, ...

@@ -92,7 +92,6 @@ struct Figure {
   std::string x_label, y_label;
   std::vector<double> x_range, y_range;
   bool log_x = false, log_y = false;
-  std::string key = "top right";
   std::string caption;
 };
 

@@ -156,7 +156,6 @@ Figure read_figure(Entry& entry) {
   figure.y_range = entry.numbers("y_range");
   figure.log_x = entry.flag("log_x", false);
   figure.log_y = entry.flag("log_y", false);
-  if (entry.has("key")) figure.key = entry.text("key");
   figure.caption = entry.text("caption", true);
   entry.finish();
   return figure;
