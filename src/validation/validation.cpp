@@ -145,8 +145,10 @@ bool Validation::State::all_run(const std::vector<Wanted>& jobs, const Watch& wa
   std::vector<std::thread> threads;
   for (std::size_t i = shared.running; i > 0; --i) threads.emplace_back([this, &jobs, &shared] { work(jobs, shared); });
   std::unique_lock lock(shared.mutex);
-  while (shared.running > 0) {
-    shared.finished.wait_for(lock, kLook);
+  bool working = true;
+  while (working) {
+    shared.finished.wait_for(lock, kLook, [&shared] { return shared.running == 0; });
+    working = shared.running > 0;
     const std::size_t done = shared.done;
     lock.unlock();
     if (watch && !watch(done, jobs.size())) shared.stop = true;

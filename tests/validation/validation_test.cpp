@@ -129,7 +129,7 @@ TEST_CASE("a_misspelt_key_is_refused_with_its_line") {
   const Sources sources("0.9586", "[[claim]]\nname = \"n\"\nwhy = \"w\"\nserie = \"row\"\n");
   const Result<Validation> validation = Validation::open(sources.config());
   REQUIRE(!validation.has_value());
-  CHECK(validation.error().message.find("source.toml:53: serie: there is no such key") != std::string::npos);
+  CHECK(validation.error().message.find("source.toml:46: serie: there is no such key") != std::string::npos);
 }
 
 TEST_CASE("a_source_that_is_not_there_is_named_with_those_that_are") {
