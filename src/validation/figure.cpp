@@ -84,7 +84,7 @@ void draw_series(Drawing& drawing, const Series& series, const Prediction& predi
   if (series.look == Look::points) {
     constexpr std::array<int, 5> kMarks = {4, 6, 8, 12, 10};
     drawing.add(rows_of(prediction, standard, series.spread),
-                std::string(series.spread ? "with yerrorbars" : "with points") + " ps 0.9 lw 1.2 pt " +
+                std::string(series.spread ? "with yerrorbars" : "with points") + " ps 1.2 lw 1.5 pt " +
                     std::to_string(kMarks[color % kMarks.size()]) + " lc rgb '" + curve_color(color) + "'",
                 title);
     return;
@@ -134,16 +134,19 @@ Result<void> draw_figure(const Judged& judged, const std::filesystem::path& path
   if (figure.log_y) script->line("set logscale y");
   script->line("set key bmargin center horizontal maxcols 3 samplen 2.4 spacing 1.2\nset bars 0.6\nset offsets graph 0.03,0.03,0.05,0.02");
   Drawing drawing(*script);
-  for (const Look look : {Look::band, Look::line, Look::points}) {
+  const auto draw_all = [&](Look look) {
     for (std::size_t i = 0; i < source.series.size(); ++i) {
       if (!judged.predictions[i].there || source.series[i].look != look) continue;
       if (look == Look::band) draw_band(drawing, source.series[i], judged.predictions[i]);
       draw_series(drawing, source.series[i], judged.predictions[i]);
     }
-  }
+  };
+  draw_all(Look::band);
+  draw_all(Look::line);
   for (std::size_t i = 0; i < source.points.size(); ++i) {
     if (!source.points[i].hidden) draw_points(drawing, source.points[i], i);
   }
+  draw_all(Look::points);
   drawing.finish();
   return draw(*script, path);
 }
