@@ -59,7 +59,7 @@ Result<std::vector<fs::path>> folders_of(const ValidationConfig& config) {
   }
   for (const std::string& name : config.names) {
     const bool there = std::any_of(chosen.begin(), chosen.end(), [&](const fs::path& folder) { return folder.filename() == name; });
-    if (!there) return failure("There is no source \"" + name + "\"; there are " + known + ".");
+    if (!there) return failure("There is no source \"" + name + std::string("\"; there are ").append(known) + ".");
   }
   return chosen;
 }
