@@ -71,6 +71,22 @@ TEST_CASE("every scene is a layout with a title and a push") {
   CHECK(scenes >= 5);
 }
 
+TEST_CASE("the record of 2009 has 4,491,863 bricks") {
+  // Read with rows of one brick, which takes no time; what the rows have beyond that is added: 100 rows a field.
+  const std::string text = text_of(TOPPLE_SOURCE_DIR "/scenes/large/record_2009.toml");
+  std::vector<std::string> shorter;
+  std::int64_t beyond = 0;
+  for (std::size_t at = text.find("[[field]]"); at != std::string::npos; at = text.find("[[field]]", at + 1)) {
+    const std::size_t count = text.find("\ncount = ", at) + 9;
+    beyond += 100 * (std::stoll(text.substr(count)) - 1);
+    shorter.push_back("field." + std::to_string(shorter.size()) + ".count=1");
+  }
+  CHECK(shorter.size() == 5);
+  const auto layout = read_layout(text, "record_2009.toml", shorter);
+  REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
+  CHECK(layout->brick_count() + beyond == 4'491'863);
+}
+
 TEST_CASE("the S-curve has 200 bricks") {
   const auto layout = read_layout(text_of(TOPPLE_SOURCE_DIR "/scenes/s_curve.toml"), "s_curve.toml");
   REQUIRE(layout.has_value());
