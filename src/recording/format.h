@@ -19,8 +19,8 @@ inline constexpr std::size_t kHeader = 16;  ///< Type, check and length of a pie
 inline constexpr std::uint32_t kNoBrickCode = 0xFFFFFFFFU;
 inline constexpr std::size_t kBricksInPiece = 65536;
 
-inline constexpr std::string_view kRecipe = "RCPE", kScene = "SCEN", kBricks = "BRIK", kHinged = "HING", kFree = "FREE", kEvents = "EVNT",
-                                  kEnergy = "ENRG", kHashes = "HASH", kEnd = "END_";
+inline constexpr std::string_view kRecipe = "RCPE", kScene = "SCEN", kShapes = "SHAP", kBricks = "BRIK", kHinged = "HING", kFree = "FREE",
+                                  kEvents = "EVNT", kEnergy = "ENRG", kHashes = "HASH", kEnd = "END_";
 
 constexpr std::size_t round_up(std::size_t size) { return (size + 7) / 8 * 8; }
 

@@ -107,6 +107,15 @@ void write_scene(Sink& sink, const Layout& layout, double tolerance) {
   sink.end();
 }
 
+// Only where there are other shapes than boxes: a reader that does not know the piece loses nothing else.
+void write_shapes(Sink& sink, const Layout& layout) {
+  if (std::all_of(layout.kinds.begin(), layout.kinds.end(), [](const BrickKind& kind) { return kind.shape == Shape::box; })) return;
+  sink.begin(format::kShapes);
+  sink.put(static_cast<std::uint32_t>(layout.kinds.size()));
+  column(sink, layout.kinds, [](const BrickKind& kind) { return static_cast<std::uint8_t>(kind.shape); });
+  sink.end();
+}
+
 void write_bricks(Sink& sink, std::size_t first, std::span<const Brick> bricks) {
   sink.begin(format::kBricks);
   sink.put(static_cast<std::uint32_t>(first));
@@ -220,6 +229,7 @@ std::vector<std::uint8_t> RecordingWriter::begin() {
   Sink sink(bytes);
   write_recipe(sink, layout, store_->recipe);
   write_scene(sink, layout, store_->tolerance);
+  write_shapes(sink, layout);
   const std::span<const Brick> bricks = layout.bricks;
   for (std::size_t first = 0; first < bricks.size(); first += format::kBricksInPiece) {
     write_bricks(sink, first, bricks.subspan(first, std::min(format::kBricksInPiece, bricks.size() - first)));

@@ -2,7 +2,7 @@
 
 import { crc32 } from './crc.ts';
 import { FormatError, Payload } from './payload.ts';
-import { readEnd, readEnergy, readRecipe, readScene, type Scene } from './small_pieces.ts';
+import { readEnd, readEnergy, readRecipe, readScene, readShapes, type Scene } from './small_pieces.ts';
 import { BrickCollector, EventCollector, TrackCollector } from './collect.ts';
 import { EndReason, kNoBrick, type Energy, type Recipe, type Recording, type RunEnd } from './types.ts';
 
@@ -76,6 +76,9 @@ class Reading {
       case 'SCEN':
         this.scene = readScene(piece);
         return;
+      case 'SHAP':
+        if (!this.scene) return piece.fail('shapes before the scene');
+        return readShapes(piece, this.scene.kinds);
       case 'BRIK':
         if (!this.scene) return piece.fail('bricks before the scene');
         return this.bricks.take(piece, this.scene);

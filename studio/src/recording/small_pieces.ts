@@ -34,7 +34,14 @@ function readKind(piece: Payload): Kind {
     return value > 0 ? value : piece.fail(`the ${what} of ${name} is ${value}, it must be over 0`);
   });
   for (const what of ['brick friction', 'floor friction', 'brick restitution', 'floor restitution']) piece.finite(what);
-  return { name, height, width, thickness, mass, color: piece.color(`the colour of ${name}`) };
+  return { name, height, width, thickness, mass, color: piece.color(`the colour of ${name}`), ball: false };
+}
+
+/** Says of the kinds that are already there which are balls. */
+export function readShapes(piece: Payload, kinds: Kind[]): void {
+  const count = piece.count('shapes', 1);
+  if (count !== kinds.length) piece.fail(`${count} shapes of ${kinds.length} kinds`);
+  piece.u8s(count, 'shapes').forEach((shape, i) => (kinds[i].ball = shape === 1));
 }
 
 function readPart(piece: Payload): Part {

@@ -13,6 +13,8 @@ export interface Kind {
   mass: number;
   /** "#rrggbb" */
   color: string;
+  /** Its height, width and thickness are a ball's diameter. */
+  ball: boolean;
 }
 
 /** Consecutive bricks that one entry of the layout made. */

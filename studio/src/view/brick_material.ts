@@ -12,8 +12,10 @@ const kPlace = /* glsl */ `
   attribute vec4 iColor;
   vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
   vec3 localPoint() {
-    float edge = min(${kEdge.toFixed(5)}, 0.3 * min(iHalf.x, min(iHalf.y, iHalf.z)));
-    return position * (iHalf - edge) + normal * edge;
+    vec3 size = abs(iHalf);
+    // A ball is all rounding.
+    float edge = iHalf.x < 0.0 ? size.x : min(${kEdge.toFixed(5)}, 0.3 * min(size.x, min(size.y, size.z)));
+    return position * (size - edge) + normal * edge;
   }
 `;
 
@@ -124,7 +126,7 @@ export function brickMaterial(surroundings: { value: number }): MeshStandardMate
         vec2 facePoint = vLocal.yz;
         vec2 grain = vec2(length(vec2(dFdx(facePoint.x), dFdy(facePoint.x))), length(vec2(dFdx(facePoint.y), dFdy(facePoint.y))));
         vec4 pips = pipsAt(facePoint, vHalf.yz, floor(vPaint.a * 255.0 + 0.5), grain);
-        pips *= smoothstep(0.9, 0.98, abs(vFacing.x));
+        pips *= smoothstep(0.9, 0.98, abs(vFacing.x)) * step(0.0, vHalf.x);
         vec3 paint = linearFromSrgb(vPaint.rgb);
         float lightness = dot(paint, vec3(0.2126, 0.7152, 0.0722));
         vec3 ink = lightness > 0.42 ? vec3(0.018, 0.017, 0.016) : vec3(0.82, 0.79, 0.72);

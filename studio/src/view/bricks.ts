@@ -30,7 +30,10 @@ export class BrickMesh {
     this.turn = new InstancedBufferAttribute(playhead.turn, 4).setUsage(DynamicDrawUsage);
     this.color = new InstancedBufferAttribute(new Uint8Array(count * 4), 4, true);
     const half = new InstancedBufferAttribute(new Float32Array(count * 3), 3);
-    for (let brick = 0; brick < count; brick++) half.setXYZ(brick, ...halfExtents(recording, brick));
+    for (let brick = 0; brick < count; brick++) {
+      const [x, y, z] = halfExtents(recording, brick);
+      half.setXYZ(brick, recording.kinds[recording.bricks.kind[brick]].ball ? -x : x, y, z); // < 0 tells the shader: a ball
+    }
     this.geometry.setAttribute('iPosition', this.position);
     this.geometry.setAttribute('iTurn', this.turn);
     this.geometry.setAttribute('iHalf', half);
