@@ -160,7 +160,7 @@ Comparison judge(const Compare& compare, const Contest& contest, const Reading& 
 
 std::string percent(double share) {
   const double size = std::fabs(share);
-  std::string text = rounded(100.0 * share, size < 0.01 ? 1 : size < 1.0 ? 2 : 3);
+  std::string text = rounded(100.0 * share, size < 0.01 ? 1 : size < 0.995 ? 2 : 3);
   if (share > 0.0) text.insert(0, "+");
   if (share < 0.0) text.replace(0, 1, "−");
   return text + " %";

@@ -148,19 +148,31 @@ Result<std::string> section(const Judged& judged, const SourceReport& report, in
   return out + "</section>\n";
 }
 
+/// Each verdict once, with all that it was given to.
+std::string grouped_verdicts(const SourceReport& report) {
+  std::string out;
+  for (const Verdict verdict : {Verdict::agrees, Verdict::agrees_for_some, Verdict::does_not_agree}) {
+    std::string names;
+    for (const Comparison& one : report.comparisons) {
+      if (one.verdict == verdict)
+        names += (names.empty() ? "" : "; ") + escaped(one.name + (one.reading.empty() ? "" : ", " + one.reading));
+    }
+    if (!names.empty()) out += (out.empty() ? "" : "<br>") + badge(verdict) + "<br><small>" + names + "</small>";
+  }
+  return out;
+}
+
 std::string overview(std::span<const SourceReport> reports) {
   std::vector<std::vector<std::string>> rows;
   int number = 0;
   for (const SourceReport& report : reports) {
     ++number;
-    std::string verdicts;
-    for (const Comparison& one : report.comparisons) {
-      verdicts += (verdicts.empty() ? "" : "<br>") + badge(one.verdict) + " <small>" +
-                  escaped(one.name + (one.reading.empty() ? "" : ", " + one.reading)) + "</small>";
-    }
+    const std::string verdicts = grouped_verdicts(report);
     const auto holding = std::count_if(report.claims.begin(), report.claims.end(), [](const ClaimCheck& claim) { return claim.holds; });
     rows.push_back({std::to_string(number), "<a href=\"#" + escaped(report.name) + "\">" + escaped(report.title) + "</a>",
-                    verdicts.empty() ? "by its claims" : verdicts,
+                    !verdicts.empty()        ? verdicts
+                    : report.kind == "study" ? "a study"
+                                             : "by its claims",
                     report.claims.empty() ? "" : std::to_string(holding) + " of " + std::to_string(report.claims.size())});
   }
   return table({"", "Source", "Verdicts", "Claims that hold"}, rows);
