@@ -16,6 +16,8 @@ std::vector<std::unique_ptr<Verb>> all_verbs() {
   verbs.push_back(layout_verb());
   verbs.push_back(run_verb());
   verbs.push_back(show_verb());
+  verbs.push_back(studio_verb());
+  verbs.push_back(render_verb());
   verbs.push_back(plot_verb());
   verbs.push_back(export_verb());
   verbs.push_back(replay_verb());

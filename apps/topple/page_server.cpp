@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <limits>
+#include <mutex>
 #include <thread>
 
 namespace topple::app {
@@ -61,11 +63,14 @@ struct PageServer::State {
   Site site;
   int port = 0;
   httplib::Server server;
+  std::string inbox;  // "/token/", or empty: nothing is taken.
 
   httplib::Server::HandlerResponse answer(const httplib::Request& request, httplib::Response& response) const {
     const auto found = site.find(request.path);
     if (!asks_for_this_machine(request, port)) {
       refuse(response, 403, "This server answers only to 127.0.0.1 and localhost.\n");
+    } else if (request.method == "POST" && !inbox.empty() && request.path.starts_with(inbox)) {
+      return httplib::Server::HandlerResponse::Unhandled;  // To receive().
     } else if (request.method != "GET" && request.method != "HEAD") {
       response.set_header("Allow", "GET, HEAD");
       refuse(response, 405, "This server only shows.\n");
@@ -109,6 +114,18 @@ Result<PageServer> PageServer::listen(Site site, int port) {
       port > 0 ? "Port " + std::to_string(port) +
                      " cannot be used: another program listens there, or it is not allowed. Without --port the next free one is taken."
                : "No port from " + std::to_string(first) + " to " + std::to_string(last) + " is free; choose one with --port.");
+}
+
+void PageServer::receive(const std::string& token, std::function<void(const std::string& what, std::string bytes)> take) {
+  State& state = *state_;
+  state.inbox = "/" + token + "/";
+  state.server.set_payload_max_length(std::numeric_limits<std::size_t>::max());
+  auto turn = std::make_shared<std::mutex>();
+  state.server.Post(state.inbox + "(.+)", [take = std::move(take), turn](const httplib::Request& request, httplib::Response& response) {
+    const std::lock_guard<std::mutex> one_at_a_time(*turn);
+    take(request.matches[1], request.body);
+    response.status = 204;
+  });
 }
 
 std::string PageServer::address() const { return std::string("http://") + kLoopback + ":" + std::to_string(state_->port) + "/"; }

@@ -12,6 +12,7 @@
 
 #include "interrupt.h"
 #include "page_server.h"
+#include "recording_bytes.h"
 #include "source.h"
 #include "summary.h"
 #include "text.h"
@@ -42,18 +43,6 @@ void open_browser(const std::string& address) {
   pid_t child = 0;
   posix_spawnp(&child, program.c_str(), &files, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&files);
-}
-
-void add(std::string& bytes, const std::vector<std::uint8_t>& piece) { bytes.append(piece.begin(), piece.end()); }
-
-/// The recording as the page reads it.
-std::string encode(const Recording& recording) {
-  RecordingWriter writer(recording);
-  std::string bytes;
-  add(bytes, writer.begin());
-  add(bytes, writer.more());
-  add(bytes, writer.end());
-  return bytes;
 }
 
 class ShowVerb final : public Verb {
@@ -101,7 +90,7 @@ class ShowVerb final : public Verb {
       return std::unexpected(recording.error());
     }
     constexpr auto kReplaceBadText = nlohmann::json::error_handler_t::replace;
-    site["/recording.topple"] = {"application/octet-stream", encode(*recording), "no-store"};
+    site["/recording.topple"] = {"application/octet-stream", recording_bytes(*recording), "no-store"};
     site["/summary.json"] = {"application/json", summary_json(*recording).dump(2, ' ', false, kReplaceBadText), "no-store"};
     return summary_text(*recording);
   }

@@ -30,6 +30,8 @@ std::unique_ptr<Verb> replay_verb();
 std::unique_ptr<Verb> plot_verb();
 std::unique_ptr<Verb> export_verb();
 std::unique_ptr<Verb> show_verb();
+std::unique_ptr<Verb> studio_verb();
+std::unique_ptr<Verb> render_verb();
 std::unique_ptr<Verb> convergence_verb();
 std::unique_ptr<Verb> validate_verb();
 

@@ -33,6 +33,8 @@ export class Session {
   note = $state('');
   /** The run of the drawn layout that is shown; null: a recording from elsewhere, or none. */
   finished = $state.raw<Finished | null>(null);
+  /** Called when a recording has been opened. */
+  opened: () => void = () => undefined;
   private cancelOpening: (() => void) | null = null;
   private frameNext = true;
   private noteTimer = 0;
@@ -71,6 +73,7 @@ export class Session {
         this.finished = null;
         this.mode = 'watch';
         this.showFresh(this.player.recording as Recording);
+        this.opened();
       },
       absent: () => void this.beginDrawing(),
     });

@@ -4,6 +4,7 @@
  */
 
 import { EngineClient, Refused, Superseded, type Finished, type ReadLayout, type RunWatch } from '../engine/client.ts';
+import { usualEnd } from '../recording/wave.ts';
 import { mirrorPart, movePart, nameOf, partsOf, pointsOf, turnPart, type Point } from './parts.ts';
 import type { Style } from './shapes.ts';
 import { Block, TomlFile } from './toml.ts';
@@ -353,14 +354,19 @@ export class Studio {
 
   /** How long it will take, by the quickest model that carries a wave; nothing is said where it cannot take the layout. */
   private async expect(text: string): Promise<void> {
-    if (this.layout && this.layout.bricks > 20000) return;
+    if (!this.layout || this.layout.bricks > 20000) return;
     this.quick ??= new EngineClient();
-    try {
-      const source = { text: withModel(text, 'hinge'), name: 'layout.toml', overrides: [] };
-      const { loaded } = await this.quick.run(source).finished;
-      if (text === this.text) this.expected = loaded.recording.duration;
-    } catch {
-      if (text === this.text) this.expected = NaN;
+    // The model that was chosen takes over where hinge refuses, if the layout is small enough for a try.
+    const models = this.layout.bricks <= 400 ? (['hinge', this.model] as const) : (['hinge'] as const);
+    for (const model of models) {
+      try {
+        const source = { text: withModel(text, model), name: 'layout.toml', overrides: [] };
+        const { loaded } = await this.quick.run(source).finished;
+        if (text === this.text) this.expected = usualEnd(loaded.recording) - 0.5;
+        return;
+      } catch {
+        continue;
+      }
     }
   }
 

@@ -118,7 +118,10 @@ async function run(id: number, source: Source): Promise<void> {
     if (performance.now() - looked > kLookEvery) {
       looked = performance.now();
       growing.add(c.collect(false));
-      if (growing.worthALook) tellLoaded(growing.look(false), (loaded) => ({ kind: 'grown', id, loaded, over: false }));
+      if (growing.worthALook) {
+        const recording = growing.look(false);
+        if (recording.duration > 0) tellLoaded(recording, (loaded) => ({ kind: 'grown', id, loaded, over: false }));
+      }
       tell({ kind: 'progress', id, time: c.time, arrived: c.arrived });
     }
     await breathe();

@@ -4,7 +4,8 @@ import { AudioBufferSource, BufferTarget, CanvasSource, Mp4OutputFormat, Output,
 import { clicksOf, clickSamples } from '../player/clicks.ts';
 import type { Player } from '../player/player.svelte.ts';
 import type { Stage } from '../player/stage.svelte.ts';
-import { EventKind, type Recording } from '../recording/types.ts';
+import type { Recording } from '../recording/types.ts';
+import { usualEnd } from '../recording/wave.ts';
 
 export type FilmCamera = 'still' | 'orbit' | 'front' | 'eye' | 'top';
 
@@ -36,13 +37,6 @@ export class FilmCancelled extends Error {
 
 /** How far the orbit turns in a second of film [rad]. */
 const kOrbitRate = 0.12;
-
-/** A second after the wave reached its last brick: later only small settling goes on. */
-export function usualEnd(recording: Recording): number {
-  const { events } = recording;
-  for (let i = events.count - 1; i >= 0; i--) if (events.kind[i] === EventKind.arrived) return Math.min(recording.duration, events.time[i] + 1);
-  return recording.duration;
-}
 
 export async function makeFilm(player: Player, stage: Stage, order: FilmOrder, watch: FilmWatch): Promise<Uint8Array<ArrayBuffer>> {
   const { recording } = player;

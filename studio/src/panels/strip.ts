@@ -89,7 +89,9 @@ function drawRibbon(pen: CanvasRenderingContext2D, { front, recording }: Loaded,
   pen.roundRect(0, top, width, kRibbon, 4);
   pen.clip();
   const first = (front.time[0] / recording.duration) * width;
-  const last = (front.time[front.time.length - 1] / recording.duration) * width;
+  // Of a run that still grows, the front may be further than what can be shown.
+  const last = Math.min(width, (front.time[front.time.length - 1] / recording.duration) * width);
+  if (!Number.isFinite(first + last)) return;
   for (let at = Math.floor(first); at <= Math.max(first + 2, last); at++) {
     const i = Math.max(0, lastNotOver(front.time, (at / width) * recording.duration));
     pen.fillStyle = recording.colors[recording.bricks.color[front.brick[i]]];
