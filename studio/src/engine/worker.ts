@@ -37,6 +37,8 @@ const kStretch = 25;
 const kLookEvery = 250;
 
 let engine: Engine | null = null;
+/** Orders wait for it. */
+let loading: Promise<void> = Promise.resolve();
 let running = -1;
 /** Runs come one after the other. */
 let queue: Promise<void> = Promise.resolve();
@@ -45,7 +47,7 @@ const tell = (report: EngineReport, transfer: Transferable[] = []): void => self
 
 self.onmessage = (message: MessageEvent<EngineOrder>) => {
   const order = message.data;
-  if (order.kind === 'load') void load(order.url);
+  if (order.kind === 'load') loading = load(order.url);
   else if (order.kind === 'stop') running = running === order.id ? -1 : running;
   else if (order.kind === 'read') void attempt(order.id, () => read(order.id, order.source));
   else {
@@ -70,6 +72,7 @@ async function load(url: string): Promise<void> {
 }
 
 async function attempt(id: number, work: () => void | Promise<void>): Promise<void> {
+  await loading;
   try {
     await work();
   } catch (error) {

@@ -1,0 +1,305 @@
+/** As a new user would: from an empty page to a shared film of an S-curve with a split; and that nothing drawn is ever lost. */
+
+import { createRequire } from 'node:module';
+import { execFileSync } from 'node:child_process';
+import { existsSync, readFileSync } from 'node:fs';
+import { mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import type { Browser, BrowserContext, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { kOut, kProgram, kRoot, launch, serve, type Site } from './browser.ts';
+
+const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const golden = readFileSync(join(kRoot, 'tests/golden/hashes.txt'), 'utf8').split('\n').filter((line) => line && !line.startsWith('#')).map((line) => line.split(' '));
+
+let browser: Browser;
+let site: Site;
+let context: BrowserContext;
+let page: Page;
+let link = '';
+const complaints: string[] = [];
+
+function listen(to: Page): Page {
+  to.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  to.on('pageerror', (error) => complaints.push(error.message));
+  return to;
+}
+async function open(address = ''): Promise<Page> {
+  const opened = listen(await context.newPage());
+  await opened.goto(`${site.url}?still=off${address}`);
+  await opened.waitForFunction(() => window.topple?.mode === 'draw');
+  return opened;
+}
+beforeAll(async () => {
+  site = await serve(null);
+  browser = await launch();
+  await mkdir(kOut, { recursive: true });
+  context = await browser.newContext({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce', acceptDownloads: true });
+  page = await open();
+});
+afterAll(async () => {
+  await browser?.close();
+  await site?.close();
+});
+
+const drawn = (): Promise<number> => page.evaluate(() => window.topple.drawn);
+const text = (): Promise<string> => page.evaluate(() => window.topple.text);
+/** Drags from one place of the table to another [mm]. */
+async function drag(from: [number, number], to: [number, number]): Promise<void> {
+  const at = async ([x, y]: [number, number]): Promise<[number, number]> => {
+    const place = (await page.evaluate(([a, b]) => window.topple.pixelAt(a, b), [x, y]))!;
+    return [place.x, place.y];
+  };
+  await page.mouse.move(...(await at(from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await at([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2])), { steps: 3 });
+  await page.mouse.move(...(await at(to)), { steps: 3 });
+  await page.mouse.up();
+}
+const tool = (name: string): Promise<void> => page.getByRole('button', { name, exact: true }).click();
+async function axe(of: Page): Promise<string[]> {
+  await of.evaluate(kAxe);
+  const found = await of.evaluate(async () => (await (window as never as { axe: { run: () => Promise<{ violations: { id: string; impact: string; nodes: { html: string }[] }[] }> } }).axe.run()).violations);
+  return found.filter((one) => one.impact === 'serious' || one.impact === 'critical').map((one) => `${one.id}: ${one.nodes[0].html.slice(0, 160)}`);
+}
+
+describe('a new user', () => {
+  test('draws an S by mouse: bricks stand along it, one is pushed', async () => {
+    await tool('S');
+    await drag([-450, 0], [250, 0]);
+    await expect.poll(drawn).toBeGreaterThan(25);
+    expect(await text()).toMatch(/\[\[push\]\]\nbrick = 0[\s\S]*\[\[curve\]\][\s\S]*gap_mm = 16\.5/);
+  });
+
+  test('lets it split, and no warning is left', async () => {
+    const before = await drawn();
+    await tool('Split');
+    const end = (await page.evaluate(() => window.topple.pixelAt(243, -4)))!;
+    await page.mouse.click(end.x, end.y);
+    await expect.poll(drawn).toBeGreaterThan(before + 20);
+    await expect.poll(() => page.evaluate(() => window.topple.doubts)).toEqual([]);
+  });
+
+  test('changes a gap, which the file says; undo and redo go all the way', async () => {
+    const first = await text();
+    await page.keyboard.press('v');
+    await page.keyboard.press('n');
+    const gap = page.getByLabel('Gap', { exact: true });
+    await gap.fill('0.5 in');
+    await gap.press('Enter');
+    await expect.poll(text).toContain('gap_mm = 12.7');
+    await page.locator('canvas').first().focus();
+    await page.keyboard.press('Control+z');
+    await expect.poll(text).toBe(first);
+    for (let i = 0; i < 5; i++) await page.keyboard.press('Control+z');
+    expect(await page.evaluate(() => window.topple.text)).not.toContain('[[curve]]');
+    for (let i = 0; i < 5; i++) await page.keyboard.press('Control+Shift+z');
+    await expect.poll(text).toContain('12.7');
+    await page.keyboard.press('Control+z');
+    await expect.poll(text).toBe(first);
+  });
+
+  test('moves, turns, mirrors, duplicates and deletes by keys', async () => {
+    const first = await text();
+    const parts = (file: string): number => (file.match(/\[\[curve\]\]/g) ?? []).length;
+    await expect.poll(drawn).toBeGreaterThan(40);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('n');
+    for (const key of ['ArrowRight', 'q', 'x']) await page.keyboard.press(key);
+    expect(await text()).not.toBe(first);
+    await page.keyboard.press('Control+d');
+    expect(parts(await text())).toBe(parts(first) + 1);
+    await page.keyboard.press('Delete');
+    expect(parts(await text())).toBe(parts(first));
+    for (let i = 0; i < 12 && (await text()) !== first; i++) await page.keyboard.press('Control+z');
+    expect(await text()).toBe(first);
+  });
+
+  test('sees a warning where the wave stops, and is led there', async () => {
+    const first = await text();
+    await tool('Brick');
+    const far = (await page.evaluate(() => window.topple.pixelAt(-300, -250)))!;
+    await page.mouse.click(far.x, far.y);
+    await expect.poll(() => page.evaluate(() => window.topple.doubts.join())).toMatch(/No brick near brick \d+ \(brick 1\) falls towards it/);
+    await page.getByRole('button', { name: 'Show' }).click();
+    await page.screenshot({ path: `${kOut}/studio-warning.png` });
+    await page.locator('canvas').first().focus();
+    await page.keyboard.press('Control+z');
+    await expect.poll(text).toBe(first);
+    await page.keyboard.press('0');
+  });
+
+  test('topples it with the space bar: all fall, and the hash is that of the program', async () => {
+    await expect.poll(() => page.evaluate(() => window.topple.doubts)).toEqual([]);
+    await page.keyboard.press('Space');
+    await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+    expect(await page.evaluate(() => window.topple.mode)).toBe('watch');
+    await page.keyboard.press('End');
+    await expect.poll(() => page.evaluate(() => window.topple.fallen === window.topple.bricks)).toBe(true);
+    if (!existsSync(kProgram)) return;
+    const folder = await mkdtemp(join(tmpdir(), 'topple drawn '));
+    await writeFile(join(folder, 'drawn.toml'), await text());
+    const native = JSON.parse(execFileSync(kProgram, ['run', join(folder, 'drawn.toml'), '--json'], { encoding: 'utf8' })) as { hash: string };
+    await rm(folder, { recursive: true });
+    expect(native.hash).toBe(await page.evaluate(() => window.topple.hash));
+  });
+
+  test('hears the hits once the sound is on, in slow motion too', async () => {
+    await page.getByRole('button', { name: 'Sound' }).click();
+    await page.locator('canvas').first().focus();
+    await page.keyboard.press('Home');
+    await page.keyboard.press('[');
+    await page.keyboard.press('Space');
+    await expect.poll(() => page.evaluate(() => window.topple.clicks), { timeout: 20000 }).toBeGreaterThan(2);
+    await page.keyboard.press('Space');
+    await page.getByRole('button', { name: 'Sound' }).click();
+  });
+
+  test('looks at it with arrows, trace, heat and ghost', async () => {
+    for (const name of ['Hits', 'Trace', 'Ghost']) await page.getByRole('button', { name, exact: true }).click();
+    for (const heat of ['arrival', 'speed', 'impulse', '']) await page.locator('#heat').selectOption(heat);
+    await page.evaluate(() => window.topple.seek(0.5 * window.topple.duration));
+    expect(await page.locator('path.way').count()).toBe(1);
+    for (const name of ['Hits', 'Trace', 'Ghost']) await page.getByRole('button', { name, exact: true }).click();
+  });
+
+  test('makes a film, frame by frame, that another program can read', async () => {
+    const film = await page.evaluate(async () => {
+      const bytes = await window.topple.film({ format: 'webm', camera: 'front', width: 160, height: 90, fps: 10, speed: 1, from: 0, to: 0.6, sound: true, samples: 1 });
+      return Array.from(bytes);
+    });
+    expect(film.slice(0, 4)).toEqual([0x1a, 0x45, 0xdf, 0xa3]); // EBML: WebM
+    const seconds = await page.evaluate(async (bytes) => {
+      const video = document.createElement('video');
+      video.src = URL.createObjectURL(new Blob([new Uint8Array(bytes)], { type: 'video/webm' }));
+      await new Promise((ready, bad) => { video.onloadedmetadata = ready; video.onerror = bad; });
+      return [video.duration, video.videoWidth, video.videoHeight];
+    }, film);
+    expect(Math.abs(seconds[0] - 0.63)).toBeLessThan(0.06); // the last click rings out
+    expect(seconds.slice(1)).toEqual([160, 90]);
+  });
+
+  test('compares three models side by side', async () => {
+    await page.getByRole('button', { name: 'Compare' }).click();
+    const rigid = page.getByRole('article', { name: 'Rigid' });
+    await expect.poll(() => rigid.innerText(), { timeout: 30000 }).toMatch(/Front speed\s+[\d.]+ m\/s[\s\S]*Hash/);
+    await page.getByRole('button', { name: 'Play all three' }).click();
+    await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  });
+
+  test('shares it: the same hash in another profile, said in words', async () => {
+    await page.getByRole('button', { name: 'Copy link' }).click();
+    await expect.poll(() => page.evaluate(() => location.hash)).toMatch(/hash=/);
+    link = await page.evaluate(() => location.hash);
+    expect(link).toMatch(/^#layout=[\w-]+&hash=[0-9a-f]{16}$/);
+    const other = await browser.newContext({ viewport: { width: 700, height: 500 }, reducedMotion: 'reduce' });
+    const friend = listen(await other.newPage());
+    await friend.goto(`${site.url}?still=off${link}`);
+    await friend.waitForFunction(() => window.topple?.drawn > 0);
+    expect(await friend.evaluate(() => window.topple.text)).toBe(await text());
+    await friend.keyboard.press('Space');
+    await friend.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+    expect(`#${link.split('#')[1]}`).toContain(await friend.evaluate(() => window.topple.hash));
+    await expect.poll(() => friend.locator('.note').innerText()).toMatch(/Same result as the sender’s/);
+    await other.close();
+  });
+
+  test('a damaged link gets a sentence and loses nothing', async () => {
+    const mine = await text();
+    const opened = await open(`${link.slice(0, 60)}!!${link.slice(64, 120)}`);
+    await expect.poll(() => opened.getByRole('alert').innerText()).toMatch(/link is damaged[\s\S]*untouched/);
+    await expect.poll(() => opened.evaluate(() => window.topple.text)).toBe(mine);
+    await opened.close();
+  });
+
+  test('closes the tab in the middle of editing and finds all again', async () => {
+    const mine = await text();
+    await page.close();
+    page = await open();
+    expect(await text()).toBe(mine);
+    await expect.poll(drawn).toBeGreaterThan(40);
+  });
+
+  test('nothing was reported as an error', () => expect(complaints).toEqual([]));
+});
+
+describe('the page', () => {
+  test.each(golden)('%s by %s gives the golden hash in the browser', async (scene, model, hash) => {
+    const layout = readFileSync(join(kRoot, 'scenes', scene), 'utf8');
+    expect(await page.evaluate(([t, m]) => window.topple.runHash(t, [`model.name=${m}`]), [layout, model])).toBe(hash);
+  });
+
+  test('every scene of the gallery can be run: no warnings but the one that is meant to stop', async () => {
+    await page.getByRole('button', { name: 'Scenes' }).click();
+    const names = await page.getByRole('dialog').getByRole('listitem').locator('b').allInnerTexts();
+    expect(names.length).toBe(10);
+    await page.keyboard.press('Escape');
+    for (const name of names) {
+      await page.getByRole('button', { name: 'Scenes' }).click();
+      await page.getByRole('dialog').getByRole('button', { name }).click();
+      await page.waitForFunction((title) => document.title.startsWith(title) && window.topple.drawn > 0, name.split(' ').slice(0, 2).join(' '));
+      const doubts = (): Promise<string> => page.evaluate(() => window.topple.doubts.join());
+      if (name === 'Where it stops') await expect.poll(doubts).toMatch(/beyond reach/);
+      else await expect.poll(doubts, { message: name }).toBe('');
+    }
+  });
+
+  test('by touch: a row is drawn with a finger and topples by a tap', async () => {
+    const phone = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, reducedMotion: 'reduce' });
+    const hand = listen(await phone.newPage());
+    await hand.goto(`${site.url}?still=off`);
+    await hand.waitForFunction(() => window.topple?.mode === 'draw');
+    await hand.getByRole('button', { name: 'Row' }).tap();
+    const client = await phone.newCDPSession(hand);
+    const touch = (type: string, x: number): Promise<unknown> => client.send('Input.dispatchTouchEvent', { type: type as 'touchStart', touchPoints: type === 'touchEnd' ? [] : [{ x, y: 400 }] });
+    await touch('touchStart', 60);
+    for (let x = 90; x <= 330; x += 40) await touch('touchMove', x);
+    await touch('touchEnd', 330);
+    await expect.poll(() => hand.evaluate(() => window.topple.drawn)).toBeGreaterThan(5);
+    await hand.getByRole('button', { name: 'Topple' }).tap();
+    await hand.waitForFunction(() => window.topple.hash !== '', null, { timeout: 30000 });
+    expect(await axe(hand)).toEqual([]);
+    await phone.close();
+  });
+
+  test('axe finds nothing serious while drawing, watching and comparing; pictures to look at', async () => {
+    for (const colorScheme of ['light', 'dark'] as const) {
+      for (const [width, height] of [[1440, 900], [390, 844]]) {
+        const other = await browser.newContext({ viewport: { width, height }, reducedMotion: 'reduce', colorScheme, hasTouch: width < 720 });
+        const one = listen(await other.newPage());
+        await one.goto(`${site.url}?still=off${link}`);
+        await one.waitForFunction(() => window.topple?.drawn > 0);
+        await one.keyboard.press('n');
+        await one.waitForTimeout(300);
+        expect(await axe(one), `drawing, ${colorScheme}, ${width}`).toEqual([]);
+        expect(await one.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out').toBe(true);
+        await one.screenshot({ path: `${kOut}/studio-draw-${width}-${colorScheme}.png` });
+        await one.keyboard.press('Space');
+        await one.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+        await one.evaluate(() => window.topple.seek(1));
+        await one.waitForTimeout(300);
+        expect(await axe(one), `watching, ${colorScheme}, ${width}`).toEqual([]);
+        await one.screenshot({ path: `${kOut}/studio-watch-${width}-${colorScheme}.png` });
+        if (colorScheme === 'light' && width > 720) {
+          await one.getByRole('button', { name: 'Compare' }).click();
+          await one.getByText('everything is at rest').first().waitFor({ timeout: 30000 });
+          expect(await axe(one), 'comparing').toEqual([]);
+          await one.screenshot({ path: `${kOut}/studio-compare-${width}.png` });
+        }
+        await other.close();
+      }
+    }
+    expect(complaints).toEqual([]);
+  });
+});
+
+test.skipIf(!existsSync(kProgram))('topple studio --export writes the page; topple render makes a film without a window', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'topple film '));
+  execFileSync(kProgram, ['studio', '--export', join(folder, 'site')]);
+  expect(existsSync(join(folder, 'site/index.html')) && existsSync(join(folder, 'site/engine.wasm'))).toBe(true);
+  const film = join(folder, 'row.webm');
+  execFileSync(kProgram, ['render', join(kRoot, 'studio/tests/page/row.toml'), '-o', film, '--size', '160x90', '--fps', '5', '--camera', 'front'], { stdio: 'pipe' });
+  expect([...readFileSync(film).subarray(0, 4)]).toEqual([0x1a, 0x45, 0xdf, 0xa3]);
+  await rm(folder, { recursive: true });
+});
