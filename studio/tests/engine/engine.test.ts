@@ -4,6 +4,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
 import { beforeAll, describe, expect, test } from 'vitest';
+import { kGallery } from '../../src/draw/gallery.ts';
 import { Engine, LayoutError } from '../../src/engine/engine.ts';
 import { decodeRecording } from '../../src/recording/decode.ts';
 import { GrowingRecording } from '../../src/recording/growing.ts';
@@ -113,4 +114,9 @@ test('what the engine reads is what the decoder reads', () => {
   expect(recording.colors).toEqual(['#123456']);
   expect(recording.tracks.count).toBe(0);
   expect(draft.length).toBeCloseTo(6 * 0.024, 12);
+});
+
+test.each(kGallery)('the gallery: $name has no doubts but where it is meant to stop', ({ name, text }) => {
+  const doubts = engine.read(text).doubts.map((doubt) => doubt.kind);
+  expect(doubts).toEqual(name === 'Where it stops' ? ['beyond_reach'] : []);
 });

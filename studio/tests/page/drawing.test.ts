@@ -17,7 +17,6 @@ let browser: Browser;
 let site: Site;
 let context: BrowserContext;
 let page: Page;
-let link = '';
 const complaints: string[] = [];
 
 function listen(to: Page): Page {
@@ -188,31 +187,6 @@ describe('a new user', () => {
     await page.getByRole('button', { name: 'Draw', exact: true }).click();
   });
 
-  test('shares it: the same hash in another profile, said in words', async () => {
-    await page.getByRole('button', { name: 'Copy link' }).click();
-    await expect.poll(() => page.evaluate(() => location.hash)).toMatch(/hash=/);
-    link = await page.evaluate(() => location.hash);
-    expect(link).toMatch(/^#layout=[\w-]+&hash=[0-9a-f]{16}$/);
-    const other = await browser.newContext({ viewport: { width: 700, height: 500 }, reducedMotion: 'reduce' });
-    const friend = listen(await other.newPage());
-    await friend.goto(`${site.url}?still=off${link}`);
-    await friend.waitForFunction(() => window.topple?.drawn > 0);
-    expect(await friend.evaluate(() => window.topple.text)).toBe(await text());
-    await friend.keyboard.press('Space');
-    await friend.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
-    expect(`#${link.split('#')[1]}`).toContain(await friend.evaluate(() => window.topple.hash));
-    await expect.poll(() => friend.locator('.note').innerText()).toMatch(/Same result as the sender’s/);
-    await other.close();
-  });
-
-  test('a damaged link gets a sentence and loses nothing', async () => {
-    const mine = await text();
-    const opened = await open(`${link.slice(0, 60)}!!${link.slice(64, 120)}`);
-    await expect.poll(() => opened.getByRole('alert').innerText()).toMatch(/link is damaged[\s\S]*untouched/);
-    await expect.poll(() => opened.evaluate(() => window.topple.text)).toBe(mine);
-    await opened.close();
-  });
-
   test('closes the tab in the middle of editing and finds all again', async () => {
     const mine = await text();
     await page.close();
@@ -228,21 +202,6 @@ describe('the page', () => {
   test.each(golden)('%s by %s gives the golden hash in the browser', async (scene, model, hash) => {
     const layout = readFileSync(join(kRoot, 'scenes', scene), 'utf8');
     expect(await page.evaluate(([t, m]) => window.topple.runHash(t, [`model.name=${m}`]), [layout, model])).toBe(hash);
-  });
-
-  test('every scene of the gallery can be run: no warnings but the one that is meant to stop', async () => {
-    await page.getByRole('button', { name: 'Scenes' }).click();
-    const names = await page.getByRole('dialog').getByRole('listitem').locator('b').allInnerTexts();
-    expect(names.length).toBe(10);
-    await page.keyboard.press('Escape');
-    for (const name of names) {
-      await page.getByRole('button', { name: 'Scenes' }).click();
-      await page.getByRole('dialog').getByRole('button', { name }).click();
-      await page.waitForFunction((title) => document.title.startsWith(title) && window.topple.drawn > 0, name.split(' ').slice(0, 2).join(' '));
-      const doubts = (): Promise<string> => page.evaluate(() => window.topple.doubts.join());
-      if (name === 'Where it stops') await expect.poll(doubts).toMatch(/beyond reach/);
-      else await expect.poll(doubts, { message: name }).toBe('');
-    }
   });
 
   test('by touch: a row is drawn with a finger and topples by a tap', async () => {
@@ -261,36 +220,6 @@ describe('the page', () => {
     await hand.waitForFunction(() => window.topple.hash !== '', null, { timeout: 30000 });
     expect(await axe(hand)).toEqual([]);
     await phone.close();
-  });
-
-  test('axe finds nothing serious while drawing, watching and comparing; pictures to look at', async () => {
-    for (const colorScheme of ['light', 'dark'] as const) {
-      for (const [width, height] of [[1440, 900], [390, 844]]) {
-        const other = await browser.newContext({ viewport: { width, height }, reducedMotion: 'reduce', colorScheme, hasTouch: width < 720 });
-        const one = listen(await other.newPage());
-        await one.goto(`${site.url}?still=off${link}`);
-        await one.waitForFunction(() => window.topple?.drawn > 0);
-        await one.keyboard.press('n');
-        await one.waitForTimeout(300);
-        expect(await axe(one), `drawing, ${colorScheme}, ${width}`).toEqual([]);
-        expect(await one.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out').toBe(true);
-        await one.screenshot({ path: `${kOut}/studio-draw-${width}-${colorScheme}.png` });
-        await one.keyboard.press('Space');
-        await one.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
-        await one.evaluate(() => window.topple.seek(1));
-        await one.waitForTimeout(300);
-        expect(await axe(one), `watching, ${colorScheme}, ${width}`).toEqual([]);
-        await one.screenshot({ path: `${kOut}/studio-watch-${width}-${colorScheme}.png` });
-        if (colorScheme === 'light' && width > 720) {
-          await one.getByRole('button', { name: 'Compare' }).click();
-          await one.getByText('everything is at rest').first().waitFor({ timeout: 30000 });
-          expect(await axe(one), 'comparing').toEqual([]);
-          await one.screenshot({ path: `${kOut}/studio-compare-${width}.png` });
-        }
-        await other.close();
-      }
-    }
-    expect(complaints).toEqual([]);
   });
 });
 
