@@ -57,11 +57,23 @@ void Neighbours::moved(BrickId brick, const Vec3& from, const Vec3& to) {
   const std::size_t old_bucket = bucket(cell(from.x), cell(from.y));
   const std::size_t new_bucket = bucket(cell(to.x), cell(to.y));
   if (old_bucket == new_bucket) return;
-  BrickId* link = &first_[old_bucket];
-  while (*link != brick) link = &next_[static_cast<std::size_t>(*link)];
-  *link = next_[static_cast<std::size_t>(brick)];
+  // A place on the edge of a cell may have been rounded to its other side when the brick was put there.
+  bool found = unlink(brick, old_bucket);
+  for (std::int64_t column = cell(from.x) - 1; column <= cell(from.x) + 1 && !found; ++column) {
+    for (std::int64_t row = cell(from.y) - 1; row <= cell(from.y) + 1 && !found; ++row) found = unlink(brick, bucket(column, row));
+  }
+  if (!found) return;
   next_[static_cast<std::size_t>(brick)] = first_[new_bucket];
   first_[new_bucket] = brick;
+}
+
+bool Neighbours::unlink(BrickId brick, std::size_t bucket) {
+  for (BrickId* link = &first_[bucket]; *link != kNoBrick; link = &next_[static_cast<std::size_t>(*link)]) {
+    if (*link != brick) continue;
+    *link = next_[static_cast<std::size_t>(brick)];
+    return true;
+  }
+  return false;
 }
 
 }  // namespace topple::rigid

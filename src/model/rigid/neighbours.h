@@ -22,6 +22,7 @@ class Neighbours {
  private:
   std::int64_t cell(double length) const;
   std::size_t bucket(std::int64_t column, std::int64_t row) const;
+  bool unlink(BrickId brick, std::size_t bucket);  // Whether it was there.
 
   double size_ = 1.0;           // Of a cell [m].
   std::vector<BrickId> first_;  // Per bucket; a list of bricks linked by next_.

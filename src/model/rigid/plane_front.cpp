@@ -310,6 +310,8 @@ void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveF
   for (const PlaneBrick& brick : bricks_) {
     world_.front[static_cast<std::size_t>(brick.id)] = kNoFront;
     if (!brick.moving) continue;
+    // Who takes it over lists it where it is now; left in the cell where this front listed it, it would be looked for in the wrong one.
+    world_.neighbours.moved(brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z));
     bricks.push_back({brick.id, pose_of(brick), brick.velocity.x * plane_.along + Vec3{0.0, 0.0, brick.velocity.z},
                       brick.velocity.turn * plane_.across, brick.quiet, brick.pushed, brick.landed});
   }
