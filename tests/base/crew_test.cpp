@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 namespace topple {
@@ -12,7 +13,7 @@ TEST_CASE("a crew of any size does every piece exactly once, round after round")
   for (const int size : {-1, 1, 2, 3, 8}) {
     Crew crew(size);
     CHECK(crew.size() == (size < 1 ? 1 : size));
-    for (const std::size_t count : {0, 1, 2, 7, 1000}) {
+    for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 2, 7, 1000}) {
       std::vector<int> done(count, 0);
       for (int round = 0; round < 50; ++round) crew.each(count, [&](std::size_t i) { ++done[i]; });
       for (const int times : done) CHECK(times == 50);
