@@ -216,6 +216,8 @@ describe('the page', () => {
     for (let x = 90; x <= 330; x += 40) await touch('touchMove', x);
     await touch('touchEnd', 330);
     await expect.poll(() => hand.evaluate(() => window.topple.drawn)).toBeGreaterThan(5);
+    // The panel of the new row opens, and the bar makes room for it.
+    await hand.waitForTimeout(1500);
     await hand.getByRole('button', { name: 'Topple' }).tap();
     await hand.waitForFunction(() => window.topple.hash !== '', null, { timeout: 30000 });
     expect(await axe(hand)).toEqual([]);
