@@ -94,6 +94,20 @@ void touch_floor(const PlaneBox& a, double margin, PlaneManifold& out) {
 void touch_boxes(const PlaneBox& a, const PlaneBox& b, double margin, PlaneManifold& out) {
   const double x = b.place.x - a.place.x, z = b.place.z - a.place.z;
   const double same = std::abs(a.cosine * b.cosine + a.sine * b.sine), other = std::abs(a.sine * b.cosine - a.cosine * b.sine);
+  // What parted them before mostly still does.
+  if (out.axis >= 0) {
+    const PlaneBox& own = out.axis < 2 ? a : b;
+    const PlaneBox& far = out.axis < 2 ? b : a;
+    const bool along = out.axis % 2 == 0;
+    const double distance = std::abs(along ? x * own.cosine - z * own.sine : x * own.sine + z * own.cosine);
+    const double reach =
+        along ? own.half_along + same * far.half_along + other * far.half_up : own.half_up + other * far.half_along + same * far.half_up;
+    if (distance - reach > margin) {
+      out.count = 0;
+      out.parted = distance - reach;
+      return;
+    }
+  }
   const std::array<double, 4> apart = {x * a.cosine - z * a.sine, x * a.sine + z * a.cosine, x * b.cosine - z * b.sine,
                                        x * b.sine + z * b.cosine};
   // Separating axes [Gottschalk1996], of which a rectangle has two.

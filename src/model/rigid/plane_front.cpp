@@ -29,7 +29,7 @@ PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(
 
 int PlaneFront::place_of(BrickId brick) const {
   const auto at = static_cast<std::size_t>(brick);
-  return world_.front[at] == number_ ? world_.place[at] : -1;
+  return brick >= 0 && world_.front[at] == number_ ? world_.place[at] : -1;
 }
 
 Vec3 PlaneFront::in_world(double x, double z) const {
@@ -81,6 +81,8 @@ int PlaneFront::add(BrickId brick, const PlaneVec& place) {
   added.next = added.box;
   added.mass = kind.mass;
   added.inertia = kind.mass * (size.along * size.along + size.up * size.up) / 12.0;
+  added.inverse_mass = 1.0 / added.mass;
+  added.inverse_inertia = 1.0 / added.inertia;
   added.radius = 0.5 * std::sqrt(size.along * size.along + size.up * size.up);
   added.thin = std::min({kind.height, kind.width, kind.thickness});
   added.time_scale = std::sqrt(std::max({kind.height, kind.width, kind.thickness}) / world_.gravity);
@@ -106,11 +108,13 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
   PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
   woken.moving = true;
   woken.quiet = 0.0;
+  woken.before_drift = {};
   woken.listed_at = woken.box.place;
   ++moving_;
   planned_for_ = 0.0;
   PlaneTouch floor;
   floor.a = place;
+  floor.thin = woken.thin;
   const Surface& surface = world_.layout.kinds[woken.kind].surface;
   floor.friction = surface.floor_friction;
   floor.restitution = surface.floor_restitution;
@@ -174,35 +178,35 @@ void PlaneFront::list_neighbours(int place) {
     PlaneTouch touch;
     touch.a = a;
     touch.b = b;
+    touch.thin = std::min(bricks_[static_cast<std::size_t>(a)].thin, bricks_[static_cast<std::size_t>(b)].thin);
     const SurfacePair surfaces =
         surface_pair(world_.layout, bricks_[static_cast<std::size_t>(place)].kind, bricks_[static_cast<std::size_t>(there)].kind);
     touch.friction = surfaces.friction;
     touch.restitution = surfaces.restitution;
     touches_.push_back(touch);
     PlaneTouch& listed = touches_.back();
-    touch_boxes(bricks_[static_cast<std::size_t>(a)].box, bricks_[static_cast<std::size_t>(b)].box,
-                world_.tolerances.margin * thinner(listed), listed.now);
+    touch_boxes(bricks_[static_cast<std::size_t>(a)].box, bricks_[static_cast<std::size_t>(b)].box, world_.tolerances.margin * listed.thin,
+                listed.now);
     for (int k = 0; k < listed.now.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      listed.memory[at].active = listed.now.points[at].separation < world_.tolerances.touching * thinner(listed);
+      listed.memory[at].active = listed.now.points[at].separation < world_.tolerances.touching * listed.thin;
     }
   }
 }
 
 void PlaneFront::list_those_that_strayed() {
-  bool changed = false;
-  const std::size_t count = bricks_.size();
+  const std::size_t count = bricks_.size(), pairs = touches_.size();
   for (std::size_t i = 0; i < count; ++i) {
     if (!bricks_[i].moving) continue;
     const PlaneVec strayed = bricks_[i].box.place - bricks_[i].listed_at;
-    const double allowed = 0.15 * bricks_[i].radius;
+    // Two that come towards each other are listed in time: half a radius is to spare.
+    const double allowed = 0.24 * bricks_[i].radius;
     if (strayed.x * strayed.x + strayed.z * strayed.z < allowed * allowed) continue;
     const PlaneVec& before = bricks_[i].listed_at;
     world_.neighbours.moved(bricks_[i].id, in_world(before.x, before.z), in_world(bricks_[i].box.place.x, bricks_[i].box.place.z));
     list_neighbours(static_cast<int>(i));
-    changed = true;
   }
-  if (changed || rested_) {
+  if (touches_.size() != pairs || rested_) {
     drop_idle();
     order();
   }
@@ -233,8 +237,10 @@ void PlaneFront::drop_idle() {
 // Bricks along the row, so that the system of equations is a chain; touches by brick, its floor first.
 void PlaneFront::order() {
   renamed_.resize(bricks_.size());
-  std::vector<PlaneBrick> kept;
-  std::vector<int> by_place;
+  std::vector<PlaneBrick>& kept = spare_;
+  std::vector<int>& by_place = by_place_;
+  kept.clear();
+  by_place.clear();
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
     if (world_.front[static_cast<std::size_t>(bricks_[i].id)] == number_) by_place.push_back(static_cast<int>(i));
   }
@@ -253,7 +259,19 @@ void PlaneFront::order() {
     touch.a = renamed_[static_cast<std::size_t>(touch.a)];
     if (touch.b >= 0) touch.b = renamed_[static_cast<std::size_t>(touch.b)];
   }
-  std::sort(touches_.begin(), touches_.end(), [](const PlaneTouch& l, const PlaneTouch& r) { return l.a != r.a ? l.a < r.a : l.b < r.b; });
+  // By the later brick of each: those that are new then come last, and little has to move.
+  const auto before = [](const PlaneTouch& l, const PlaneTouch& r) {
+    const int left = std::max(l.a, l.b), right = std::max(r.a, r.b);
+    return left != right ? left < right : std::min(l.a, l.b) < std::min(r.a, r.b);
+  };
+  for (std::size_t i = 1; i < touches_.size(); ++i) {
+    std::size_t at = i;
+    while (at > 0 && before(touches_[i], touches_[at - 1])) --at;
+    const auto begin = touches_.begin();
+    if (at < i)
+      std::rotate(begin + static_cast<std::ptrdiff_t>(at), begin + static_cast<std::ptrdiff_t>(i),
+                  begin + static_cast<std::ptrdiff_t>(i) + 1);
+  }
 }
 
 void PlaneFront::wake_unsupported(double now) {

@@ -19,13 +19,14 @@ struct RowPlane {
 
 struct PlaneBrick {
   PlaneBox box;
-  PlaneBox next;             ///< At the end of the part of the step that is tried.
-  PlaneVec velocity;         ///< At this moment.
-  PlaneVec middle;           ///< Mean over the drift that is planned.
-  PlaneVec before_drift;     ///< Velocity when the last drift began.
-  PlaneVec acceleration;     ///< Before the last blow.
-  double mass = 0.0;         ///< [kg]
-  double inertia = 0.0;      ///< About the axis across [kg m^2].
+  PlaneBox next;          ///< At the end of the part of the step that is tried.
+  PlaneVec velocity;      ///< At this moment.
+  PlaneVec middle;        ///< Mean over the drift that is planned.
+  PlaneVec before_drift;  ///< Velocity when the last drift began.
+  PlaneVec acceleration;  ///< Before the last blow.
+  double mass = 0.0;      ///< [kg]
+  double inertia = 0.0;   ///< About the axis across [kg m^2].
+  double inverse_mass = 0.0, inverse_inertia = 0.0;
   double radius = 0.0;       ///< Of the circle around it [m].
   double thin = 0.0;         ///< Its thinnest side [m].
   double time_scale = 0.0;   ///< sqrt(longest side / gravity) [s].
@@ -52,7 +53,8 @@ struct PlaneMemory {
 
 struct PlaneTouch {
   int a = 0;
-  int b = -1;  ///< -1: the floor.
+  int b = -1;         ///< -1: the floor.
+  double thin = 0.0;  ///< Of the thinner of the two [m].
   double friction = 0.0;
   double restitution = 0.0;
   PlaneManifold now, next;
@@ -99,7 +101,16 @@ class PlaneFront final : public Wave {
   void retire(double time);
 
   double part(double begin, double time, bool may_cut);
-  void plan(double time);
+  struct PatternPoint {
+    int a = 0, b = 0;  // Places counted backwards from the brick that was struck.
+    std::uint8_t feature = 0;
+    PointState state;
+  };
+  using Pattern = std::vector<PatternPoint>;
+  void recall(const Pattern& pattern, int head);
+  void keep(Pattern& pattern, int head) const;
+  bool closes_fast() const;
+  void plan(double time, Pattern* pattern = nullptr);
   void leap(double time);
   void kick(std::span<PlaneUnknown> unknowns, double time) const;
   void make_rows(PointState PlaneMemory::* guess);
@@ -113,9 +124,9 @@ class PlaneFront final : public Wave {
   void accept_drift(double cut, double whole);
   bool activate_new_points();
   void take_blow(double whole, double next);
-  void blow(bool always);
+  bool blow(bool always);
   void give_back();
-  double thinner(const PlaneTouch& touch) const;
+  void bounce_by(double share);
 
   void begin_push(const Push& push, double now);
   void note_arrivals(double begin, double time, double whole);
@@ -132,9 +143,9 @@ class PlaneFront final : public Wave {
   int moving_ = 0;
   double planned_for_ = 0.0;  // `middle` is good for a drift of this time [s]; 0: for none.
   bool rested_ = false;       // Some brick came to rest since the lists were made.
-  std::vector<PlaneBrick> bricks_;
+  std::vector<PlaneBrick> bricks_, spare_;
   std::vector<PlaneTouch> touches_;
-  std::vector<PlaneRow> rows_;
+  std::vector<PlaneRow> rows_, compression_;
   std::vector<PlaneUnknown> unknowns_, before_blow_;
   struct Force {
     BrickId brick = kNoBrick;
@@ -147,8 +158,12 @@ class PlaneFront final : public Wave {
     BrickId brick, by;
   };
   std::vector<Struck> struck_now_;
+  Pattern strike_;                 // How the last strike went,
+  std::array<Pattern, 16> leaps_;  // and the leaps after it.
+  BrickId last_struck_ = kNoBrick;
+  std::size_t since_strike_ = 0;
   std::vector<BrickId> near_;
-  std::vector<int> renamed_;
+  std::vector<int> renamed_, by_place_;
   PlaneSolver solver_;
 };
 

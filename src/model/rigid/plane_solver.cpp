@@ -7,7 +7,9 @@ namespace topple::rigid {
 
 namespace {
 
-constexpr int kTrueIterations = 4;     // Of Newton's method with the true law before the convex problem is asked for the states.
+constexpr double kWorst = 0.7;         // States that are wrong by this share of the worst change together. Tuned on the cross-check row.
+constexpr int kNear = 1;               // That many bricks to each side.
+constexpr int kTrueIterations = 20;    // Of Newton's method with the true law before the convex problem is asked for the states.
 constexpr int kRounds = 6;             // Of the convex problem.
 constexpr int kConvexIterations = 40;  // Of Newton's method in one round; it ends by itself.
 
@@ -28,7 +30,7 @@ struct Slip {
   double normal, tangent;
 };
 
-Slip rate_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
+inline Slip rate_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
   const Column<3>& a = velocity[static_cast<std::size_t>(row.a)];
   Slip slip{dot(row.normal_a, a), dot(row.tangent_a, a)};
   if (row.b >= 0) {
@@ -46,8 +48,8 @@ Slip slip_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
 
 double sign_of(Grip grip) { return grip == Grip::forward ? 1.0 : -1.0; }
 
-// Impulses and states that follow from how a point slips. Returns whether the states are those that were assumed.
-bool settle(PlaneRow& row, const Slip& slip) {
+// Impulses that follow from how a point slips, the state that it should be in, and by how much the assumed one is wrong [m/s].
+double settle(PlaneRow& row, const Slip& slip, PointState& should) {
   const bool pressed = slip.normal < 0.0;
   row.normal = pressed ? -row.normal_stiffness * slip.normal : 0.0;
   const double limit = row.friction * (row.base + row.normal);
@@ -60,40 +62,46 @@ bool settle(PlaneRow& row, const Slip& slip) {
   }
   row.tangent = grip == Grip::stick ? std::clamp(sticking, -limit, limit) : -sign_of(grip) * limit;
   const bool idle = !pressed && row.base == 0.0;
-  const bool same = pressed == row.state.pressed && (grip == row.state.grip || idle);
-  row.state.pressed = pressed;
-  row.state.grip = idle ? Grip::stick : grip;
-  return same;
+  should = {pressed, idle ? Grip::stick : grip};
+  double wrong = 0.0;
+  if (pressed != row.state.pressed) wrong = pressed ? -slip.normal : 1000.0 * slip.normal;
+  if (grip != row.state.grip && !idle) {
+    wrong = std::max(
+        wrong, row.state.grip == Grip::stick ? 1000.0 * (std::abs(sticking) - limit) / row.tangent_stiffness : std::abs(slip.tangent));
+  }
+  return wrong;
 }
 
+struct Impulse {
+  double normal, tangent;
+  PointState state;
+};
+
 // The same for the convex problem: the impulse is the point of the cone of friction nearest to that of two springs.
-bool settle_convexly(PlaneRow& row, const Slip& slip) {
+Impulse convex_impulse(const PlaneRow& row, const Slip& slip) {
   const double sticking = -row.tangent_stiffness * slip.tangent;
-  bool pressed = slip.normal < 0.0;
-  Grip grip = slip.tangent > 0.0 ? Grip::forward : Grip::backward;
+  const Grip grip = slip.tangent > 0.0 ? Grip::forward : Grip::backward;
   if (row.base > 0.0) {
-    row.normal = pressed ? -row.normal_stiffness * slip.normal : 0.0;
-    if (std::abs(sticking) <= row.lagged_limit) grip = Grip::stick;
-    row.tangent = std::clamp(sticking, -row.lagged_limit, row.lagged_limit);
-  } else {
-    const double mu = row.friction, closing = -(slip.normal + mu * row.lagged_slip);
-    const double springs = 1.0 / row.normal_stiffness + mu * mu / row.tangent_stiffness;
-    const double along_edge = (closing + mu * std::abs(slip.tangent)) / springs;
-    if (mu * closing * row.normal_stiffness >= std::abs(sticking)) {
-      pressed = true;
-      grip = Grip::stick;
-      row.normal = closing * row.normal_stiffness;
-      row.tangent = sticking;
-    } else {
-      pressed = along_edge > 0.0;
-      row.normal = std::max(along_edge, 0.0);
-      row.tangent = -sign_of(grip) * mu * row.normal;
-    }
+    const bool pressed = slip.normal < 0.0;
+    const double normal = pressed ? -row.normal_stiffness * slip.normal : 0.0;
+    if (std::abs(sticking) <= row.lagged_limit) return {normal, sticking, {pressed, Grip::stick}};
+    return {normal, -sign_of(grip) * row.lagged_limit, {pressed, grip}};
   }
-  const bool idle = !pressed && row.base == 0.0;
-  const bool same = pressed == row.state.pressed && (grip == row.state.grip || idle);
-  row.state.pressed = pressed;
-  row.state.grip = grip;
+  const double mu = row.friction, closing = -(slip.normal + mu * row.lagged_slip);
+  if (mu * closing * row.normal_stiffness >= std::abs(sticking)) return {closing * row.normal_stiffness, sticking, {true, Grip::stick}};
+  const double along_edge = closing + mu * std::abs(slip.tangent);
+  if (along_edge <= 0.0) return {0.0, 0.0, {false, grip}};
+  const double normal = along_edge * row.edge_stiffness;
+  return {normal, -sign_of(grip) * mu * normal, {true, grip}};
+}
+
+bool settle_convexly(PlaneRow& row, const Slip& slip) {
+  const Impulse impulse = convex_impulse(row, slip);
+  const bool idle = !impulse.state.pressed && row.base == 0.0;
+  const bool same = impulse.state.pressed == row.state.pressed && (impulse.state.grip == row.state.grip || idle);
+  row.normal = impulse.normal;
+  row.tangent = impulse.tangent;
+  row.state = impulse.state;
   return same;
 }
 
@@ -111,8 +119,8 @@ void PlaneSolver::shape(std::size_t count, std::span<const PlaneRow> rows) {
 }
 
 // Adds force (rate . v) to the matrix: `force` is what the point does to its bodies per impulse, `rate` gives the velocity.
-void PlaneSolver::add(const PlaneRow& row, const Column<3>& force_a, const Column<3>& force_b, const Column<3>& rate_a,
-                      const Column<3>& rate_b, double stiffness) {
+inline void PlaneSolver::add(const PlaneRow& row, const Column<3>& force_a, const Column<3>& force_b, const Column<3>& rate_a,
+                             const Column<3>& rate_b, double stiffness) {
   const auto a = static_cast<std::size_t>(row.a);
   add_outer(matrix_.diagonal(a), stiffness, force_a, rate_a);
   if (row.b < 0) return;
@@ -122,74 +130,120 @@ void PlaneSolver::add(const PlaneRow& row, const Column<3>& force_a, const Colum
   add_outer(a < b ? matrix_.lower(b, a) : matrix_.upper(b, a), stiffness, force_b, rate_a);
 }
 
-void PlaneSolver::push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b) {
-  add_scaled(velocity_[static_cast<std::size_t>(row.a)], impulse, on_a);
-  if (row.b >= 0) add_scaled(velocity_[static_cast<std::size_t>(row.b)], impulse, on_b);
+inline void PlaneSolver::push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b) {
+  add_scaled(right_[static_cast<std::size_t>(row.a)], impulse, on_a);
+  if (row.b >= 0) add_scaled(right_[static_cast<std::size_t>(row.b)], impulse, on_b);
 }
 
-// Velocities that follow from the states that the rows assume.
-bool PlaneSolver::solve_states(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law) {
-  shape(bodies.size(), rows);
+// Adds what a row does in its state, `times` over, to the system of equations.
+void PlaneSolver::add(const PlaneRow& row, Law law, double times) {
+  if (!row.state.pressed && row.base == 0.0) return;
+  const bool convex = law == Law::convex;
+  const bool on_cone = convex && row.base == 0.0;
+  Column<3> force_a = row.normal_a, force_b = row.normal_b;
+  const double bias = row.bias + (on_cone ? row.friction * row.lagged_slip : 0.0);
+  if (row.state.grip == Grip::stick) {
+    const double stiffness = times * row.tangent_stiffness;
+    add(row, row.tangent_a, row.tangent_b, row.tangent_a, row.tangent_b, stiffness);
+    push(row, -stiffness * row.tangent_bias, row.tangent_a, row.tangent_b);
+  } else if (convex && !on_cone) {
+    push(row, -sign_of(row.state.grip) * times * row.lagged_limit, row.tangent_a, row.tangent_b);
+  } else {
+    // Sliding friction follows the normal impulse.
+    const double share = -sign_of(row.state.grip) * row.friction;
+    add_scaled(force_a, share, row.tangent_a);
+    add_scaled(force_b, share, row.tangent_b);
+    if (row.base > 0.0) push(row, times * share * row.base, row.tangent_a, row.tangent_b);
+    if (on_cone) {
+      const double stiffness = times * row.edge_stiffness;
+      add(row, force_a, force_b, force_a, force_b, stiffness);
+      push(row, -stiffness * (bias + share * row.tangent_bias), force_a, force_b);
+      return;
+    }
+  }
+  if (!row.state.pressed) return;
+  const double stiffness = times * row.normal_stiffness;
+  add(row, force_a, force_b, row.normal_a, row.normal_b, stiffness);
+  push(row, -stiffness * bias, force_a, force_b);
+}
+
+// The system of equations that follows from the states that the rows assume.
+void PlaneSolver::assemble(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law) {
+  matrix_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const PlaneUnknown& body = bodies[i];
     matrix_.diagonal(i).m = {body.mass, 0.0, 0.0, 0.0, body.mass, 0.0, 0.0, 0.0, body.inertia};
-    velocity_[i] = {body.mass * body.velocity.x, body.mass * body.velocity.z, body.inertia * body.velocity.turn};
+    right_[i] = {body.mass * body.velocity.x, body.mass * body.velocity.z, body.inertia * body.velocity.turn};
   }
-  for (const PlaneRow& row : rows) {
-    const bool convex = law == Law::convex;
-    const bool on_cone = convex && row.base == 0.0;
-    if (!row.state.pressed && row.base == 0.0) continue;
-    Column<3> force_a = row.normal_a, force_b = row.normal_b;
-    double bias = row.bias + (on_cone ? row.friction * row.lagged_slip : 0.0);
-    if (row.state.grip == Grip::stick) {
-      add(row, row.tangent_a, row.tangent_b, row.tangent_a, row.tangent_b, row.tangent_stiffness);
-      push(row, -row.tangent_stiffness * row.tangent_bias, row.tangent_a, row.tangent_b);
-    } else {
-      // Sliding friction follows the normal impulse.
-      const double share = -sign_of(row.state.grip) * row.friction;
-      if (convex && !on_cone) {
-        push(row, -sign_of(row.state.grip) * row.lagged_limit, row.tangent_a, row.tangent_b);
-      } else {
-        add_scaled(force_a, share, row.tangent_a);
-        add_scaled(force_b, share, row.tangent_b);
-        if (row.base > 0.0) push(row, share * row.base, row.tangent_a, row.tangent_b);
-      }
-      if (on_cone) {
-        const double stiffness = 1.0 / (1.0 / row.normal_stiffness + row.friction * row.friction / row.tangent_stiffness);
-        add(row, force_a, force_b, force_a, force_b, stiffness);
-        push(row, -stiffness * (bias + share * row.tangent_bias), force_a, force_b);
-        continue;
-      }
-    }
-    if (!row.state.pressed) continue;
-    add(row, force_a, force_b, row.normal_a, row.normal_b, row.normal_stiffness);
-    push(row, -row.normal_stiffness * bias, force_a, force_b);
-  }
-  if (!matrix_.factorise()) return false;
-  matrix_.solve(velocity_);
+  for (const PlaneRow& row : rows) add(row, law, 1.0);
+}
+
+// Velocities that follow; bodies before `from` and all that touches them alone are as they were the last time.
+bool PlaneSolver::solve_system(std::size_t from) {
+  if (!matrix_.factorise(from)) return false;
+  matrix_.solve(right_, from, velocity_);
   double sum = 0.0;
   for (const Column<3>& v : velocity_) sum += v[0] + v[1] + v[2];
   return std::isfinite(sum);
 }
 
+// Changes the states that are wrong by more than others near them: all at once they would overshoot. Returns the first body of which the
+// equations have changed.
+std::size_t PlaneSolver::change_the_worst(std::span<PlaneRow> rows) {
+  const int count = static_cast<int>(most_wrong_.size());
+  std::size_t from = most_wrong_.size();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (wrong_[k] == 0.0) continue;
+    PlaneRow& row = rows[k];
+    const int low = row.b < 0 ? row.a : std::min(row.a, row.b), high = std::max(row.a, row.b);
+    double most = 0.0;
+    for (int i = std::max(low - kNear, 0); i <= std::min(high + kNear, count - 1); ++i) {
+      most = std::max(most, most_wrong_[static_cast<std::size_t>(i)]);
+    }
+    if (wrong_[k] < kWorst * most) continue;
+    add(row, Law::true_law, -1.0);
+    row.state = should_[k];
+    add(row, Law::true_law, 1.0);
+    from = std::min(from, static_cast<std::size_t>(low));
+  }
+  return from;
+}
+
 // Newton's method with the true law from the states that the rows hold.
 bool PlaneSolver::settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows) {
+  should_.resize(rows.size());
+  wrong_.resize(rows.size());
+  most_wrong_.resize(bodies.size());
+  assemble(bodies, rows, Law::true_law);
+  std::size_t from = 0;
   for (int i = 0; i < kTrueIterations; ++i) {
-    if (!solve_states(bodies, rows, Law::true_law)) return false;
+    if (!solve_system(from)) return false;
+    std::fill(most_wrong_.begin(), most_wrong_.end(), 0.0);
     bool settled = true;
-    for (PlaneRow& row : rows) settled = settle(row, slip_of(row, velocity_)) && settled;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      wrong_[k] = settle(rows[k], slip_of(rows[k], velocity_), should_[k]);
+      if (wrong_[k] == 0.0) continue;
+      settled = false;
+      for (const int body : {rows[k].a, rows[k].b}) {
+        if (body >= 0) most_wrong_[static_cast<std::size_t>(body)] = std::max(most_wrong_[static_cast<std::size_t>(body)], wrong_[k]);
+      }
+    }
     if (settled) return true;
+    from = change_the_worst(rows);
   }
   return false;
 }
 
 void PlaneSolver::solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows) {
   velocity_.resize(bodies.size());
+  right_.resize(bodies.size());
+  shape(bodies.size(), rows);
   if (!settle_truly(bodies, rows)) {
     for (std::size_t i = 0; i < bodies.size(); ++i) velocity_[i] = {bodies[i].guess.x, bodies[i].guess.z, bodies[i].guess.turn};
     for (PlaneRow& row : rows) {
       row.lagged_slip = std::abs(slip_of(row, velocity_).tangent);
       row.lagged_limit = row.friction * row.base;
+      row.edge_stiffness = 1.0 / (1.0 / row.normal_stiffness + row.friction * row.friction / row.tangent_stiffness);
     }
     convex_ = velocity_;
     for (int round = 0; round < kRounds; ++round) {
@@ -210,7 +264,7 @@ void PlaneSolver::solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows
 
 // How far to go from `before_` along `change_`: where the cost is least, which is the kinetic energy of the change of velocity and what
 // the springs store.
-double PlaneSolver::best_share(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows) const {
+double PlaneSolver::best_share(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows) {
   double slope = 0.0, curvature = 0.0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const PlaneUnknown& body = bodies[i];
@@ -219,29 +273,42 @@ double PlaneSolver::best_share(std::span<const PlaneUnknown> bodies, std::span<P
              body.inertia * (before_[i][2] - body.velocity.turn) * d[2];
     curvature += body.mass * (d[0] * d[0] + d[1] * d[1]) + body.inertia * d[2] * d[2];
   }
-  for (PlaneRow& row : rows) {
+  ways_.clear();
+  for (const PlaneRow& row : rows) {
     const Slip here = slip_of(row, before_), change = rate_of(row, change_);
-    row.slip_normal = here.normal;
-    row.slip_tangent = here.tangent;
-    row.change_normal = change.normal;
-    row.change_tangent = change.tangent;
+    ways_.push_back({here.normal, here.tangent, change.normal, change.tangent});
   }
   const auto slope_at = [&](double share) {
     double sum = slope + share * curvature;
-    for (const PlaneRow& row : rows) {
-      PlaneRow there = row;
-      settle_convexly(there, {row.slip_normal + share * row.change_normal, row.slip_tangent + share * row.change_tangent});
-      sum -= there.normal * row.change_normal + there.tangent * row.change_tangent;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Way& way = ways_[i];
+      const Impulse there = convex_impulse(rows[i], {way.normal + share * way.change_normal, way.tangent + share * way.change_tangent});
+      sum -= there.normal * way.change_normal + there.tangent * way.change_tangent;
     }
     return sum;
   };
-  if (slope_at(1.0) <= 0.0) return 1.0;
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < 30; ++i) {
-    const double middle = 0.5 * (low + high);
-    (slope_at(middle) > 0.0 ? high : low) = middle;
+  // The slope never falls along the way: the secant that keeps both signs (the Illinois rule) finds where it is zero.
+  double low = 0.0, high = 1.0, at_low = slope_at(0.0), at_high = slope_at(1.0);
+  if (at_high <= 0.0 || at_low >= 0.0) return 1.0;
+  const double enough = 1e-6 * std::abs(at_low);
+  double middle = 1.0;
+  for (int i = 0, side = 0; i < 40; ++i) {
+    middle = (low * at_high - high * at_low) / (at_high - at_low);
+    const double value = slope_at(middle);
+    if (std::abs(value) <= enough) break;
+    if (value < 0.0) {
+      low = middle;
+      at_low = value;
+      if (side == 1) at_high *= 0.5;
+      side = 1;
+    } else {
+      high = middle;
+      at_high = value;
+      if (side == -1) at_low *= 0.5;
+      side = -1;
+    }
   }
-  return 0.5 * (low + high);
+  return middle;
 }
 
 // One round, from the velocities as they are.
@@ -249,7 +316,8 @@ void PlaneSolver::solve_convex(std::span<const PlaneUnknown> bodies, std::span<P
   for (PlaneRow& row : rows) settle_convexly(row, slip_of(row, velocity_));
   for (int i = 0; i < kConvexIterations; ++i) {
     before_ = velocity_;
-    if (!solve_states(bodies, rows, Law::convex)) {
+    assemble(bodies, rows, Law::convex);
+    if (!solve_system(0)) {
       velocity_ = before_;
       return;
     }

@@ -11,6 +11,10 @@
 
 namespace topple::rigid {
 
+/// J of the velocity along (x, z) of a point of a body, at an arm from its centre.
+inline Column<3> rate(double x, double z, double arm_x, double arm_z) { return {x, z, x * arm_z - z * arm_x}; }
+inline double product_of(const Column<3>& j, const PlaneVec& v) { return j[0] * v.x + j[1] * v.z + j[2] * v.turn; }
+
 /// What a point's friction does.
 enum class Grip : std::uint8_t { stick, forward, backward };  ///< Stick, or slide along or against the tangent.
 
@@ -38,10 +42,9 @@ struct PlaneRow {
   double tangent = 0.0;  ///< [N s]
   PointState state;      ///< The guess, then the truth.
   // Of one round of the convex problem.
-  double lagged_slip = 0.0;                          ///< Speed at which it slid before [m/s].
-  double lagged_limit = 0.0;                         ///< The limit of its friction, for rows with a base [N s].
-  double slip_normal = 0.0, slip_tangent = 0.0;      ///< Where a search begins [m/s]...
-  double change_normal = 0.0, change_tangent = 0.0;  ///< ...and how it changes over its whole way.
+  double lagged_slip = 0.0;     ///< Speed at which it slid before [m/s].
+  double lagged_limit = 0.0;    ///< The limit of its friction, for rows with a base [N s].
+  double edge_stiffness = 0.0;  ///< Along an edge of the cone [kg].
 };
 
 /// A body that moves: its mass, and its velocity before and after.
@@ -65,18 +68,28 @@ class PlaneSolver {
  private:
   enum class Law : std::uint8_t { true_law, convex };
   void shape(std::size_t count, std::span<const PlaneRow> rows);
-  bool solve_states(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law);
+  void assemble(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law);
+  void add(const PlaneRow& row, Law law, double times);
+  bool solve_system(std::size_t from);
+  std::size_t change_the_worst(std::span<PlaneRow> rows);
   bool settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
   void solve_convex(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
-  double best_share(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows) const;
+  double best_share(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows);
   void add(const PlaneRow& row, const Column<3>& force_a, const Column<3>& force_b, const Column<3>& rate_a, const Column<3>& rate_b,
            double stiffness);
   void push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b);
 
   std::vector<int> first_;
   BlockEnvelope<3> matrix_;
-  std::vector<Column<3>> velocity_, before_, change_, convex_;
+  std::vector<Column<3>> velocity_, right_, before_, change_, convex_;
   std::vector<PlaneRow> kept_;
+  std::vector<PointState> should_;
+  std::vector<double> wrong_, most_wrong_;
+  struct Way {
+    double normal, tangent;                // Where a search begins [m/s]...
+    double change_normal, change_tangent;  // ...and how that changes over its whole way.
+  };
+  std::vector<Way> ways_;
 };
 
 }  // namespace topple::rigid

@@ -207,7 +207,7 @@ double default_time_step(const Layout& layout) {
   for (const BrickKind& kind : layout.kinds) {
     if (kind.shape == Shape::box || only_balls) longest = std::min(longest, std::max({kind.height, kind.width, kind.thickness}));
   }
-  return 0.05 * std::sqrt(longest / layout.gravity);
+  return 0.06 * std::sqrt(longest / layout.gravity);
 }
 
 Result<std::unique_ptr<Model>> make_rigid_model(const Layout& layout, const RigidConfig& config) {

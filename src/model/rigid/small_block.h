@@ -45,7 +45,7 @@ inline void subtract_product(Block<N>& c, const Block<N>& a, const Block<N>& b) 
   }
 }
 
-template <int N, std::size_t M = static_cast<std::size_t>(N)>
+template <int N, std::size_t M>
 inline std::array<double, M> product(const Block<N>& a, const std::array<double, M>& x) {
   std::array<double, M> y{};
   for (std::size_t i = 0; i < M; ++i) {
@@ -54,7 +54,7 @@ inline std::array<double, M> product(const Block<N>& a, const std::array<double,
   return y;
 }
 
-template <int N, std::size_t M = static_cast<std::size_t>(N)>
+template <int N, std::size_t M>
 inline void subtract_product(std::array<double, M>& y, const Block<N>& a, const std::array<double, M>& x) {
   for (std::size_t i = 0; i < M; ++i) {
     for (std::size_t j = 0; j < M; ++j) y[i] -= a.m[M * i + j] * x[j];

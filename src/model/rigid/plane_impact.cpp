@@ -1,0 +1,302 @@
+// The drift of a plane front, the impacts that cut it short, and their blows.
+#include <algorithm>
+#include <cmath>
+
+#include "model/rigid/plane_front.h"
+
+namespace topple::rigid {
+
+PlaneBox PlaneFront::box_at(const PlaneBrick& brick, double time, double whole) const {
+  PlaneBox box = brick.box;
+  if (!brick.moving) return box;
+  // The acceleration of this part is constant: 2 (middle - velocity) / whole.
+  box.place = box.place + time * brick.velocity + (time * time / whole) * (brick.middle - brick.velocity);
+  set_turn(box);
+  return box;
+}
+
+void PlaneFront::try_drift(double time) {
+  for (PlaneBrick& brick : bricks_) brick.next = box_at(brick, time, time);
+  for (PlaneTouch& touch : touches_) {
+    const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
+    touch.next.axis = touch.now.axis;
+    if (touch.b < 0) {
+      touch_floor(a.next, world_.tolerances.margin * a.thin, touch.next);
+      continue;
+    }
+    const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];
+    touch_boxes(a.next, b.next, world_.tolerances.margin * touch.thin, touch.next);
+  }
+}
+
+namespace {
+
+bool was_active(const PlaneTouch& touch, std::uint8_t feature) {
+  for (int k = 0; k < touch.now.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (touch.now.points[at].feature == feature) return touch.memory[at].active;
+  }
+  return false;
+}
+
+// The distance of the nearest point that is not active yet.
+double new_distance(const PlaneTouch& touch, const PlaneManifold& manifold) {
+  if (manifold.count == 0) return manifold.parted;
+  double least = 1e300;
+  for (int k = 0; k < manifold.count; ++k) {
+    const PlanePoint& point = manifold.points[static_cast<std::size_t>(k)];
+    if (!was_active(touch, point.feature)) least = std::min(least, point.separation);
+  }
+  return least;
+}
+
+}  // namespace
+
+// When the first new point touches [s]; `time` if none does before.
+double PlaneFront::first_impact(double time) {
+  double first = time;
+  for (const PlaneTouch& touch : touches_) {
+    if (touch.next.count == 0) continue;
+    const double near = world_.tolerances.touching * touch.thin;
+    if (new_distance(touch, touch.next) > -near) continue;
+    first = std::min(first, impact_of(touch, time));
+  }
+  return first;
+}
+
+double PlaneFront::distance_at(const PlaneTouch& touch, double time, double whole) const {
+  PlaneManifold manifold;
+  manifold.axis = touch.now.axis;
+  const PlaneBox a = box_at(bricks_[static_cast<std::size_t>(touch.a)], time, whole);
+  if (touch.b < 0) {
+    touch_floor(a, 1e300, manifold);
+  } else {
+    touch_boxes(a, box_at(bricks_[static_cast<std::size_t>(touch.b)], time, whole), 1e300, manifold);
+  }
+  return new_distance(touch, manifold);
+}
+
+// The moment at which a point of this pair begins to touch, by the secant that keeps both signs (the Illinois rule).
+double PlaneFront::impact_of(const PlaneTouch& touch, double time) const {
+  const double enough = world_.tolerances.located * touch.thin;
+  double low = 0.0, high = time;
+  double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, touch.next);
+  // It touched from the beginning without taking part: nothing to locate.
+  if (at_low <= world_.tolerances.touching * touch.thin || at_low > 1e200) return time;
+  double middle = time;
+  for (int i = 0, side = 0; i < 30; ++i) {
+    middle = (low * at_high - high * at_low) / (at_high - at_low);
+    const double value = distance_at(touch, middle, time);
+    if (std::abs(value) <= enough || !(value < 1e200)) break;
+    if (value > 0.0) {
+      low = middle;
+      at_low = value;
+      if (side == 1) at_high *= 0.5;
+      side = 1;
+    } else {
+      high = middle;
+      at_high = value;
+      if (side == -1) at_low *= 0.5;
+      side = -1;
+    }
+  }
+  return middle;
+}
+
+// Moves on by `cut` of a drift that was tried for `whole`; a point is the same where its feature is.
+void PlaneFront::accept_drift(double cut, double whole) {
+  double work = 0.0;
+  const auto work_place = [this](const Force& force) {
+    const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place_of(force.brick))];
+    return brick.box.place.x + force.x * brick.box.cosine + force.z * brick.box.sine;
+  };
+  for (const Force& force : forces_) work -= force.along * work_place(force);
+  for (PlaneBrick& brick : bricks_) {
+    if (!brick.moving) continue;
+    brick.box = cut < whole ? box_at(brick, cut, whole) : brick.next;
+    brick.before_drift = brick.velocity;
+    brick.velocity = brick.velocity + (2.0 * cut / whole) * (brick.middle - brick.velocity);
+  }
+  for (const Force& force : forces_) work += force.along * work_place(force);
+  world_.push_work += work;
+  for (PlaneTouch& touch : touches_) {
+    if (cut < whole) {
+      const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
+      touch.next.axis = touch.now.axis;
+      if (touch.b < 0) {
+        touch_floor(a.box, world_.tolerances.margin * a.thin, touch.next);
+      } else {
+        touch_boxes(a.box, bricks_[static_cast<std::size_t>(touch.b)].box, world_.tolerances.margin * touch.thin, touch.next);
+      }
+    }
+    std::array<PlaneMemory, 2> memory;
+    for (int k = 0; k < touch.next.count; ++k) {
+      for (int j = 0; j < touch.now.count; ++j) {
+        if (touch.now.points[static_cast<std::size_t>(j)].feature != touch.next.points[static_cast<std::size_t>(k)].feature) continue;
+        memory[static_cast<std::size_t>(k)] = touch.memory[static_cast<std::size_t>(j)];
+      }
+      memory[static_cast<std::size_t>(k)].fresh = false;
+    }
+    touch.memory = memory;
+    touch.now = touch.next;
+  }
+}
+
+// Points that have come to touch take part from now on. Returns whether there are any.
+bool PlaneFront::activate_new_points() {
+  bool any = false;
+  for (PlaneTouch& touch : touches_) {
+    const double near = world_.tolerances.touching * touch.thin;
+    for (int k = 0; k < touch.now.count; ++k) {
+      PlaneMemory& memory = touch.memory[static_cast<std::size_t>(k)];
+      if (memory.active || touch.now.points[static_cast<std::size_t>(k)].separation > near) continue;
+      // It slips as the other point of the pair does, for a guess.
+      const PlaneMemory& other = touch.memory[static_cast<std::size_t>(1 - k)];
+      memory = {.active = true, .fresh = true};
+      if (touch.now.count == 2 && other.active && !other.fresh) memory.kick.grip = other.kick.grip;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Whether a point that has begun to touch closes so fast that it deserves a blow; a slower one is stopped by the next kick.
+bool PlaneFront::closes_fast() const {
+  const double slow = 0.5 * world_.gravity * world_.step;
+  for (const PlaneTouch& touch : touches_) {
+    for (int k = 0; k < touch.now.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (!touch.memory[at].fresh) continue;
+      const PlanePoint& point = touch.now.points[at];
+      const auto approach = [&](int place) {
+        const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+        const Column<3> j = rate(touch.now.normal_x, touch.now.normal_z, point.x - brick.box.place.x, point.z - brick.box.place.z);
+        return product_of(j, brick.velocity);
+      };
+      if ((touch.b < 0 ? 0.0 : approach(touch.b)) - approach(touch.a) > slow) return true;
+    }
+  }
+  return false;
+}
+
+// New points touch: the blow acts together with half a kick for the drift of `next` that follows. A bounce, which needs the blow by itself,
+// comes before that. The drift before was planned for `whole`.
+void PlaneFront::take_blow(double whole, double next) {
+  const bool bounced = blow(false);
+  // The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
+  for (PlaneBrick& brick : bricks_) {
+    if (brick.moving) brick.acceleration = (2.0 / whole) * (brick.middle - brick.before_drift);
+  }
+  plan(next, struck_now_.empty() ? nullptr : &strike_);
+  for (PlaneTouch& touch : touches_) touch.load = 0.0;
+  if (bounced) return;
+  for (PlaneBrick& brick : bricks_) {
+    if (brick.moving) brick.velocity = brick.middle - (0.5 * next) * brick.acceleration;
+  }
+}
+
+// A blow by itself, `always` or only if something bounces; whether there was one. Restitution is Poisson's [Glocker1995]: every point gives
+// back a share of the impulse that it took, and only where a bounce lasts longer than a step; a slower hit keeps the points together.
+bool PlaneFront::blow(bool always) {
+  const bool may_bounce =
+      std::any_of(touches_.begin(), touches_.end(), [](const PlaneTouch& touch) { return touch.restitution > 0.0 && touch.now.count > 0; });
+  if (!may_bounce && !always) return false;
+  make_rows(&PlaneMemory::blow);
+  for (const PlaneBrick& brick : bricks_) {
+    if (!brick.moving) continue;
+    unknowns_[static_cast<std::size_t>(brick.unknown)].velocity = brick.velocity;
+    unknowns_[static_cast<std::size_t>(brick.unknown)].guess = brick.velocity;
+  }
+  const double slow = 0.5 * world_.gravity * world_.step;
+  bool bounces = false;
+  for (PlaneRow& row : rows_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    row.bias = std::max(touch.now.points[static_cast<std::size_t>(row.point)].separation, 0.0) / world_.step;
+    double closing = -product_of(row.normal_a, unknowns_[static_cast<std::size_t>(row.a)].velocity);
+    if (row.b >= 0) closing -= product_of(row.normal_b, unknowns_[static_cast<std::size_t>(row.b)].velocity);
+    bounces = bounces || (touch.restitution > 0.0 && touch.restitution * closing > slow);
+  }
+  if (!bounces && !always) return false;
+  before_blow_ = unknowns_;
+  solver_.solve(unknowns_, rows_);
+  if (bounces) give_back();
+  for (PlaneBrick& brick : bricks_) {
+    if (brick.moving) brick.velocity = unknowns_[static_cast<std::size_t>(brick.unknown)].velocity;
+  }
+  remember_impulses(0.0, &PlaneMemory::blow);
+  return true;
+}
+
+// The second half of a bounce: every point has its share of impulse more, at least. Where points share a blow or rub, that could make
+// energy; then all shares are lowered until no more comes back than restitution squared of what the first half took, as Stronge has it.
+void PlaneFront::give_back() {
+  const auto energy = [](std::span<const PlaneUnknown> unknowns) {
+    double sum = 0.0;
+    for (const PlaneUnknown& u : unknowns) {
+      sum += 0.5 * (u.mass * (u.velocity.x * u.velocity.x + u.velocity.z * u.velocity.z) + u.inertia * u.velocity.turn * u.velocity.turn);
+    }
+    return sum;
+  };
+  const double left = energy(unknowns_), taken = energy(before_blow_) - left;
+  double most = 0.0;
+  for (const PlaneRow& row : rows_) {
+    if (row.normal > 0.0) most = std::max(most, touches_[static_cast<std::size_t>(row.touch)].restitution);
+  }
+  const double allowed = left + std::max(taken, 0.0) * most * most * (1.0 + 1e-3);
+  compression_ = rows_;
+  bounce_by(1.0);
+  if (energy(unknowns_) > allowed) {
+    double low = 0.0, high = 1.0;
+    for (int i = 0; i < 6; ++i) {
+      const double share = 0.5 * (low + high);
+      bounce_by(share);
+      (energy(unknowns_) > allowed ? high : low) = share;
+    }
+    bounce_by(low);
+  }
+  for (PlaneRow& row : rows_) row.normal += row.base;
+}
+
+// From the velocities before the blow: all that the compression took, and this share of what should come back.
+void PlaneFront::bounce_by(double share) {
+  unknowns_ = before_blow_;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    PlaneRow& row = rows_[k];
+    row.state = compression_[k].state;
+    row.base = (1.0 + share * touches_[static_cast<std::size_t>(row.touch)].restitution) * compression_[k].normal;
+    const auto push = [&](int unknown, const Column<3>& j) {
+      if (unknown < 0) return;
+      PlaneUnknown& body = unknowns_[static_cast<std::size_t>(unknown)];
+      body.velocity = body.velocity + row.base * PlaneVec{j[0] / body.mass, j[1] / body.mass, j[2] / body.inertia};
+    };
+    push(row.a, row.normal_a);
+    push(row.b, row.normal_b);
+  }
+  solver_.solve(unknowns_, rows_);
+}
+
+bool PlaneFront::is_hit(const PlaneTouch& touch, const PlaneBrick& still) const {
+  for (int k = 0; k < touch.now.count; ++k) {
+    if (touch.memory[static_cast<std::size_t>(k)].fresh) return true;
+  }
+  return !touch.bearing && touch.load > world_.tolerances.load * world_.gravity * still.mass;
+}
+
+// Bricks that stand or rest and are hit in this moment begin to move, so that the impact acts on them.
+void PlaneFront::wake_struck(double now) {
+  for (bool again = true; again;) {
+    again = false;
+    for (const PlaneTouch& touch : touches_) {
+      if (touch.b < 0 || touch.now.count == 0) continue;
+      const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
+      const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];
+      if (a.moving == b.moving || !is_hit(touch, a.moving ? b : a)) continue;
+      struck_now_.push_back(a.moving ? Struck{b.id, a.id} : Struck{a.id, b.id});
+      wake(struck_now_.back().brick, now);
+      again = true;
+      break;
+    }
+  }
+}
+
+}  // namespace topple::rigid
