@@ -13,6 +13,9 @@ namespace {
 // Off the plane by less than this, as a fraction of the thickness or in radians, a brick is in it: rounding of places and headings.
 constexpr double kInPlane = 1e-7;
 
+// A brick is borne by another one where the normal of their contact points up by more than this.
+constexpr double kLeans = 0.1;
+
 // How far the farthest corner has moved [m].
 double displacement(const PlaneBrick& brick, const PlaneVec& from) {
   const PlaneVec moved = brick.box.place - from;
@@ -291,6 +294,18 @@ void PlaneFront::wake_unsupported(double now) {
   }
 }
 
+// A brick that has come to rest goes on to press on those that bear it, as long as they move: if its weight went at once, the states of all
+// contacts of the wave would change.
+void PlaneFront::let_lean(PlaneTouch& touch, bool a_rests) const {
+  const PlaneBrick& other = bricks_[static_cast<std::size_t>(a_rests ? touch.b : touch.a)];
+  const bool is_borne = (a_rests ? 1.0 : -1.0) * touch.now.normal_z > kLeans;
+  for (PlaneMemory& memory : touch.memory) {
+    memory.leaning = other.moving && is_borne ? memory.normal : 0.0;
+    memory.leaning_tangent = other.moving && is_borne ? memory.tangent : 0.0;
+    if (memory.leaning > 0.0) memory.kick = {.pressed = false};
+  }
+}
+
 void PlaneFront::retire(double time) {
   const Tolerances& limits = world_.tolerances;
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
@@ -319,6 +334,7 @@ void PlaneFront::retire(double time) {
     for (PlaneTouch& touch : touches_) {
       if (touch.b < 0 || (touch.a != static_cast<int>(i) && touch.b != static_cast<int>(i))) continue;
       touch.bearing = touch.impulse > 0.0;
+      let_lean(touch, touch.a == static_cast<int>(i));
       touch.mark = bricks_[static_cast<std::size_t>(touch.a == static_cast<int>(i) ? touch.b : touch.a)].box.place;
     }
   }

@@ -47,8 +47,10 @@ struct PlaneBrick {
 /// What a point remembers from moment to moment.
 struct PlaneMemory {
   bool active = false;
-  bool fresh = false;     ///< Became active at the end of this part of the step.
-  PointState kick, blow;  ///< What it did in the last kick and in the last blow: the guess for the next one.
+  bool fresh = false;                           ///< Became active at the end of this part of the step.
+  PointState kick, blow;                        ///< What it did in the last kick and in the last blow: the guess for the next one.
+  double normal = 0.0, tangent = 0.0;           ///< What it carried in the last kick [N].
+  double leaning = 0.0, leaning_tangent = 0.0;  ///< What a brick that rests and leans on one that moves goes on to press with [N].
 };
 
 struct PlaneTouch {
@@ -113,6 +115,7 @@ class PlaneFront final : public Wave {
   void plan(double time, Pattern* pattern = nullptr);
   void leap(double time);
   void kick(std::span<PlaneUnknown> unknowns, double time) const;
+  void let_lean(PlaneTouch& touch, bool a_rests) const;
   void make_rows(PointState PlaneMemory::* guess);
   void set_bias(double time);
   void remember_impulses(double time, PointState PlaneMemory::* states);

@@ -174,6 +174,14 @@ void PlaneFront::kick(std::span<PlaneUnknown> unknowns, double time) const {
     velocity.x += time * force.along / brick.mass;
     velocity.turn += time * force.along * z / brick.inertia;
   }
+  for (const PlaneRow& row : rows_) {
+    const PlaneMemory& memory = touches_[static_cast<std::size_t>(row.touch)].memory[static_cast<std::size_t>(row.point)];
+    if (memory.leaning == 0.0) continue;
+    PlaneUnknown& unknown = unknowns[static_cast<std::size_t>(row.a)];
+    const double normal = time * memory.leaning, tangent = time * memory.leaning_tangent;
+    const auto push = [&](std::size_t i) { return normal * row.normal_a[i] + tangent * row.tangent_a[i]; };
+    unknown.velocity = unknown.velocity + PlaneVec{push(0) / unknown.mass, push(1) / unknown.mass, push(2) / unknown.inertia};
+  }
 }
 
 // Half a kick from the velocities of this moment, for a drift of `time`.
@@ -206,9 +214,14 @@ void PlaneFront::recall(const Pattern& pattern, int head) {
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
     const int a = head - touch.a, b = touch.b < 0 ? kFloorOf : head - touch.b;
     const std::uint8_t feature = touch.now.points[static_cast<std::size_t>(row.point)].feature;
-    while (next < pattern.size() && pattern[next].a < a) ++next;
-    for (std::size_t k = next; k < pattern.size() && pattern[k].a == a; ++k) {
-      if (pattern[k].b == b && pattern[k].feature == feature) row.state = pattern[k].state;
+    // Both go in the same order.
+    const auto comes_before = [a, b](const PatternPoint& point) {
+      const int nearer = std::min(point.a, point.b), farther = std::max(point.a, point.b);
+      return nearer != std::min(a, b) ? nearer < std::min(a, b) : farther < std::max(a, b);
+    };
+    while (next < pattern.size() && comes_before(pattern[next])) ++next;
+    for (std::size_t k = next; k < pattern.size() && pattern[k].a == a && pattern[k].b == b; ++k) {
+      if (pattern[k].feature == feature) row.state = pattern[k].state;
     }
   }
 }
@@ -255,6 +268,8 @@ void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states
     PlaneMemory& memory = touch.memory[static_cast<std::size_t>(row.point)];
     touch.impulse += row.normal;
     memory.*states = row.state;
+    memory.normal = time > 0.0 ? row.normal / time : 0.0;
+    memory.tangent = time > 0.0 ? row.tangent / time : 0.0;
     if (row.state.pressed) continue;
     double parting = product_of(row.normal_a, unknowns_[static_cast<std::size_t>(row.a)].velocity);
     if (row.b >= 0) parting += product_of(row.normal_b, unknowns_[static_cast<std::size_t>(row.b)].velocity);
