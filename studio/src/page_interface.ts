@@ -48,6 +48,8 @@ export interface PageInterface {
   readonly text: string;
   /** Its bricks, as the engine put them down. */
   readonly drawn: number;
+  /** Whether bricks and doubts are those of the text as it is now. */
+  readonly settled: boolean;
   /** What the engine says against it. */
   readonly doubts: readonly string[];
   /** Of the last run of the drawn layout, 16 hexadecimal digits. */
@@ -84,6 +86,7 @@ export function installPageInterface(player: Player, stage: Stage, studio: Studi
     get mode() { return page.mode(); },
     get text() { return studio.text; },
     get drawn() { return studio.layout?.bricks ?? 0; },
+    get settled() { return studio.settled; },
     get doubts() { return studio.layout?.doubts.map((doubt) => doubt.words) ?? []; },
     get hash() { return studio.hash; },
     get clicks() { return page.sound.played; },

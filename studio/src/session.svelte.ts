@@ -38,6 +38,7 @@ export class Session {
   private cancelOpening: (() => void) | null = null;
   private frameNext = true;
   private noteTimer = 0;
+  private starting = false;
 
   constructor(
     private readonly player: Player,
@@ -180,8 +181,12 @@ export class Session {
 
   async topple(): Promise<void> {
     const { studio, player, stage } = this;
+    if (this.starting) return;
+    this.starting = true;
+    await studio.settle(); // a tap may come before the engine has seen the last stroke
+    this.starting = false;
     const { layout, promised } = studio;
-    if (studio.empty || !layout || studio.running || layout.doubts.some((one) => one.kind === 'overlap')) return;
+    if (this.mode !== 'draw' || studio.problems.length || studio.empty || !layout || studio.running || layout.doubts.some((one) => one.kind === 'overlap')) return;
     this.finished = null;
     player.show(layout.recording);
     stage.replace(layout.recording);

@@ -63,6 +63,9 @@ export class Studio {
   private stopRun: (() => void) | null = null;
   private expectTimer = 0;
   private reads = 0;
+  /** The text that `layout` or `problems` are about. */
+  private answered = $state(kEmpty);
+  private reading: Promise<void> = Promise.resolve();
   private showing: ((layout: ReadLayout) => void) | null = null;
 
   /** Where each push stands: its part and its place in it, so that it stays there when bricks before it come and go. */
@@ -107,6 +110,7 @@ export class Studio {
   /** Another document. The one before stays in the history. */
   open(text: string, promised = ''): void {
     this.chosen = [];
+    this.anchors = [];
     this.commit(text, '');
     this.promised = promised;
   }
@@ -137,12 +141,14 @@ export class Studio {
   undo(): void {
     if (!this.canUndo) return;
     this.at--;
+    this.anchors = []; // the text of that time says itself where its pushes are
     this.take(this.history[this.at].text);
     this.chosen = [];
   }
   redo(): void {
     if (!this.canRedo) return;
     this.at++;
+    this.anchors = [];
     this.take(this.history[this.at].text);
     this.chosen = [];
   }
@@ -153,7 +159,16 @@ export class Studio {
     this.promised = '';
     this.expected = NaN;
     this.keep();
-    void this.read();
+    this.reading = this.read();
+  }
+
+  /** Whether the engine's answer is about the text as it is now. */
+  get settled(): boolean {
+    return this.answered === this.text;
+  }
+  /** Waits for the engine's answer to the text as it is now. */
+  async settle(): Promise<void> {
+    for (let waited: Promise<void> | null = null; !this.settled && waited !== this.reading; ) await (waited = this.reading);
   }
 
   private keep(): void {
@@ -173,20 +188,23 @@ export class Studio {
       this.layout = null;
       this.problems = [];
       this.anchors = [];
+      this.answered = text;
       return;
     }
     const mine = ++this.reads;
     try {
       const layout = await this.engine.read({ text, name: 'layout.toml', overrides: [] });
       if (text !== this.text) return;
-      if (this.restorePushes(layout)) return;
+      if (this.restorePushes(layout)) return await this.read();
       this.layout = layout;
       this.problems = [];
+      this.answered = text;
       this.showing?.(layout);
       this.expectTimer = window.setTimeout(() => void this.expect(text), 350);
     } catch (error) {
       if (error instanceof Superseded || mine !== this.reads) return;
       this.problems = error instanceof Refused ? error.problems.map(plainProblem) : [String((error as Error).message)];
+      this.answered = text;
     }
   }
 
@@ -209,7 +227,6 @@ export class Studio {
       this.text = file.text;
       this.history[this.at] = { ...this.history[this.at], text: this.text };
       this.keep();
-      void this.read();
       return true;
     }
     this.anchors = pushes.map((push) => {

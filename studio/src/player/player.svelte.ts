@@ -64,7 +64,6 @@ export class Player {
     this.time = 0;
     this.playing = false;
     this.growing = false;
-    this.failure = '';
     this.chosen = -1;
     this.range = null;
   }

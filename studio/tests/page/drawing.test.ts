@@ -8,6 +8,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import type { Browser, BrowserContext, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { kGallery } from '../../src/draw/gallery.ts';
 import { kOut, kProgram, kRoot, launch, serve, type Site } from './browser.ts';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -17,6 +18,7 @@ let browser: Browser;
 let site: Site;
 let context: BrowserContext;
 let page: Page;
+let link = '';
 const complaints: string[] = [];
 
 function listen(to: Page): Page {
@@ -57,6 +59,9 @@ async function drag(from: [number, number], to: [number, number]): Promise<void>
   await page.mouse.up();
 }
 const tool = (name: string): Promise<void> => page.getByRole('button', { name, exact: true }).click();
+/** Until the engine has answered to the text as it is now. */
+const settled = (of = page): Promise<unknown> => of.waitForFunction(() => window.topple.settled, null, { timeout: 30000 });
+const toppled = (of = page): Promise<unknown> => of.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
 async function axe(of: Page): Promise<string[]> {
   await of.evaluate(kAxe);
   const found = await of.evaluate(async () => (await (window as never as { axe: { run: () => Promise<{ violations: { id: string; impact: string; nodes: { html: string }[] }[] }> } }).axe.run()).violations);
@@ -187,6 +192,61 @@ describe('a new user', () => {
     await page.getByRole('button', { name: 'Draw', exact: true }).click();
   });
 
+  test('shares it: the same hash in another profile, said in words', async () => {
+    await page.getByRole('button', { name: 'Copy link' }).click();
+    await expect.poll(() => page.evaluate(() => location.hash)).toMatch(/^#layout=[\w-]+&hash=[0-9a-f]{16}$/);
+    link = await page.evaluate(() => location.hash);
+    const other = await browser.newContext({ viewport: { width: 700, height: 500 }, reducedMotion: 'reduce' });
+    const friend = listen(await other.newPage());
+    await friend.goto(`${site.url}?still=off${link}`);
+    await friend.waitForFunction((mine) => window.topple?.text === mine && window.topple.settled, await text());
+    const note = friend.getByText(/Same result as the sender’s \(hash [0-9a-f ]+\)/).waitFor({ timeout: 50000 });
+    await friend.keyboard.press('Space');
+    await toppled(friend);
+    expect(link.endsWith(await friend.evaluate(() => window.topple.hash))).toBe(true);
+    await note;
+    await other.close();
+  });
+
+  test('a link whose hash is another one says both', async () => {
+    const other = await browser.newContext({ viewport: { width: 700, height: 500 }, reducedMotion: 'reduce' });
+    const friend = listen(await other.newPage());
+    await friend.goto(`${site.url}?still=off${link.slice(0, -4)}0000`);
+    await friend.waitForFunction(() => window.topple?.drawn > 0 && window.topple.settled);
+    const note = friend.getByText(/The sender’s result was another one: hash [0-9a-f ]+ there, [0-9a-f ]+ here/).waitFor({ timeout: 50000 });
+    await friend.keyboard.press('Space');
+    await note;
+    await other.close();
+  });
+
+  test.each([
+    ['letters that no link has', () => `${link.slice(0, 60)}!!${link.slice(62)}`],
+    ['cut off', () => link.slice(0, 80)],
+    ['one letter changed', () => `${link.slice(0, 70)}${link[70] === 'A' ? 'B' : 'A'}${link.slice(71)}`],
+  ])('a damaged link (%s) gets a sentence and loses nothing', async (_, damaged) => {
+    const mine = await text();
+    const opened = await open(damaged());
+    await expect.poll(() => opened.getByRole('alert').innerText()).toMatch(/link is damaged[\s\S]*untouched/);
+    await expect.poll(() => opened.evaluate(() => window.topple.text)).toBe(mine);
+    await opened.close();
+  });
+
+  test('a damaged file gets a sentence and loses nothing', async () => {
+    const mine = await text();
+    const give = (name: string, words: string): Promise<void> =>
+      page.getByLabel('Layout or recording file').setInputFiles({ name, mimeType: 'application/octet-stream', buffer: Buffer.from(words) });
+    await give('bad.topple', 'TOPPLE01 and nothing more');
+    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/cut off after 25 bytes/);
+    expect(await text()).toBe(mine);
+    await page.getByRole('button', { name: 'Close' }).click();
+    await give('bad.toml', '[[row]]\ncount = many\n');
+    await expect.poll(() => page.getByLabel('Warnings').innerText()).toMatch(/expected|value|parse/i);
+    await page.locator('canvas').first().focus();
+    await page.keyboard.press('Control+z');
+    expect(await text()).toBe(mine);
+    await settled();
+  });
+
   test('closes the tab in the middle of editing and finds all again', async () => {
     const mine = await text();
     await page.close();
@@ -204,6 +264,18 @@ describe('the page', () => {
     expect(await page.evaluate(([t, m]) => window.topple.runHash(t, [`model.name=${m}`]), [layout, model])).toBe(hash);
   });
 
+  test('every scene of the gallery can be run: no warnings but the one that is meant to stop', async () => {
+    for (const { name, text: scene } of kGallery) {
+      await page.getByRole('button', { name: 'Scenes' }).click();
+      await page.getByRole('dialog').getByRole('button', { name }).click();
+      await page.waitForFunction((wanted) => window.topple.text === wanted && window.topple.settled, scene);
+      const doubts = await page.evaluate(() => window.topple.doubts.join());
+      if (name === 'Where it stops') expect(doubts).toMatch(/beyond reach/);
+      else expect(doubts, name).toBe('');
+      expect(await drawn(), name).toBeGreaterThan(20);
+    }
+  });
+
   test('by touch: a row is drawn with a finger and topples by a tap', async () => {
     const phone = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, reducedMotion: 'reduce' });
     const hand = listen(await phone.newPage());
@@ -212,17 +284,54 @@ describe('the page', () => {
     await hand.getByRole('button', { name: 'Row' }).tap();
     const client = await phone.newCDPSession(hand);
     const touch = (type: string, x: number): Promise<unknown> => client.send('Input.dispatchTouchEvent', { type: type as 'touchStart', touchPoints: type === 'touchEnd' ? [] : [{ x, y: 400 }] });
+    const button = (await hand.getByRole('button', { name: 'Topple' }).boundingBox())!;
     await touch('touchStart', 60);
     for (let x = 90; x <= 330; x += 40) await touch('touchMove', x);
     await touch('touchEnd', 330);
-    await expect.poll(() => hand.evaluate(() => window.topple.drawn)).toBeGreaterThan(5);
-    // The panel of the new row opens, and the bar makes room for it.
-    await hand.waitForTimeout(1500);
-    await hand.getByRole('button', { name: 'Topple' }).tap();
-    await hand.waitForFunction(() => window.topple.hash !== '', null, { timeout: 30000 });
+    // At once, where the button was before: nothing else may have taken its place, and the engine need not have answered yet.
+    await hand.touchscreen.tap(button.x + button.width / 2, button.y + button.height / 2);
+    await toppled(hand);
+    expect(await hand.evaluate(() => [window.topple.mode, window.topple.bricks > 5])).toEqual(['watch', true]);
+    const after = (await hand.getByRole('button', { name: 'Draw', exact: true }).boundingBox())!;
+    await hand.touchscreen.tap(after.x + after.width / 2, after.y + after.height / 2);
+    await expect.poll(() => hand.getByRole('button', { name: 'Topple' }).boundingBox()).toEqual(button);
     expect(await axe(hand)).toEqual([]);
     await phone.close();
   });
+
+  test.each([
+    ['light', 1440, 900],
+    ['dark', 1440, 900],
+    ['light', 390, 844],
+    ['dark', 390, 844],
+  ] as const)('axe finds nothing serious, and nothing sticks out: %s, %i × %i', async (colorScheme, width, height) => {
+    const other = await browser.newContext({ viewport: { width, height }, reducedMotion: 'reduce', colorScheme, hasTouch: width < 720 });
+    const one = listen(await other.newPage());
+    const look = async (what: string): Promise<void> => {
+      await one.screenshot({ path: `${kOut}/studio-${what}-${width}-${colorScheme}.png` });
+      expect(await axe(one), what).toEqual([]);
+      expect(await one.evaluate(() => document.documentElement.scrollWidth <= innerWidth && document.body.scrollHeight <= innerHeight), what).toBe(true);
+    };
+    await one.goto(`${site.url}?still=off`);
+    await one.waitForFunction(() => window.topple?.mode === 'draw');
+    await look('empty');
+    await one.goto(`${site.url}?still=off${link}`);
+    await one.waitForFunction(() => window.topple?.drawn > 0 && window.topple.settled);
+    await one.keyboard.press('n');
+    await look('draw');
+    await one.keyboard.press('Space');
+    await toppled(one);
+    await one.keyboard.press('Space');
+    await one.evaluate(() => window.topple.seek(1));
+    await look('watch');
+    await one.getByRole('button', { name: 'Compare' }).click();
+    await one.getByRole('article', { name: 'Rigid' }).getByText('Hash').waitFor({ timeout: 50000 });
+    await look('compare');
+    await one.keyboard.press('?');
+    await look('keys');
+    await other.close();
+  });
+  test('nothing was reported as an error in all this', () => expect(complaints).toEqual([]));
 });
 
 test.skipIf(!existsSync(kProgram))('topple studio --export writes the page; topple render makes a film without a window', async () => {
