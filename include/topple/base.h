@@ -9,6 +9,9 @@
 
 namespace topple {
 
+/// Threads that share the work of one run: made where the run is (RunConfig::threads), handed on to who can use them.
+class Crew;
+
 /// Why something that a person asked for cannot be done, in sentences. May hold several lines, one a problem.
 struct Error {
   std::string message;

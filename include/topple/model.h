@@ -143,6 +143,8 @@ struct RigidConfig {
   double time_step = 0.0;  ///< 0: a share of sqrt(height / gravity) of the smallest brick [s].
   /// No brick stands or rests: every one is stepped from the beginning on, and the run never ends by itself. For tests of structures.
   bool every_brick_moves = false;
+  // affects speed only
+  Crew* crew = nullptr;  ///< Null: the calling thread alone. A run sets it.
 };
 
 /// Choosing the config chooses the model.

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "base/crew.h"
 #include "run/run_end.h"
 #include "topple/run.h"
 
@@ -31,12 +32,18 @@ struct Story {
 
 struct Simulation::State {
   State(Layout layout, Recipe recipe, const RunConfig& the_config)
-      : config(the_config), recording(std::move(layout), std::move(recipe)), recorder(recording, config.recorder) {}
+      : config(the_config), crew(config.threads), recording(std::move(layout), std::move(recipe)), recorder(recording, shared(config.recorder)) {}
+
+  RecorderConfig shared(RecorderConfig recorder_config) {
+    recorder_config.crew = &crew;
+    return recorder_config;
+  }
 
   void step();
   void finish();
 
   RunConfig config;
+  Crew crew;
   Recording recording;
   Recorder recorder;
   std::unique_ptr<Model> model;
@@ -82,7 +89,9 @@ Result<Simulation> Simulation::start(Layout layout, const ModelConfig& model_con
   Simulation simulation;
   simulation.state_ = std::make_unique<State>(std::move(layout), std::move(recipe), config);
   State& state = *simulation.state_;
-  auto made = make_model(state.recording.layout(), model_config);
+  ModelConfig shared = model_config;
+  if (auto* rigid = std::get_if<RigidConfig>(&shared)) rigid->crew = &state.crew;
+  auto made = make_model(state.recording.layout(), shared);
   if (!made) return std::unexpected(made.error());
   state.model = std::move(*made);
   state.progress.bricks = state.recording.layout().brick_count();

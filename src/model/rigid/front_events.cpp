@@ -122,7 +122,7 @@ void Front::note_rest(int place, double now) {
     events_.push_back(plain_event(EventKind::landed, now, body.id, by));
   }
   const BrickId next = next_of_part(world_.layout, body.id);
-  if (fallen && by == kNoBrick && next != kNoBrick && world_.phase[static_cast<std::size_t>(next)] == Phase::standing) {
+  if (fallen && by == kNoBrick && next != kNoBrick && world_.phase[static_cast<std::size_t>(next)] == Phase::standing && !moves(next)) {
     events_.push_back(plain_event(EventKind::missed, now, body.id, next));
   }
   events_.push_back(plain_event(EventKind::rested, now, body.id, by));
@@ -145,7 +145,7 @@ void Front::begin_push(const Push& push, double now) {
     body.angular_velocity = spin->angular_speed * Vec3{-heading.y, heading.x, 0.0};
     body.velocity = -cross(body.angular_velocity, body.axes * local_toe);
     refresh(body);
-    world_.push_work += kinetic_energy(body) - before;
+    ledger_.push_work += kinetic_energy(body) - before;
     for (Touch& touch : touches_) {
       if (touch.a == place || touch.b == place) touch.memory = {};
     }
@@ -165,7 +165,7 @@ void Front::begin_push(const Push& push, double now) {
     body.angular_velocity = body.angular_velocity + body.inverse_inertia * cross(arm, impulse);
     take_blow();
     // Work of a blow: the impulse times the mean velocity of its point, before and after.
-    world_.push_work += 0.5 * dot(impulse, speed_before + velocity_at(bodies_[static_cast<std::size_t>(place)], arm));
+    ledger_.push_work += 0.5 * dot(impulse, speed_before + velocity_at(bodies_[static_cast<std::size_t>(place)], arm));
     event.impulse = blow.impulse;
     event.point = body.position + arm;
   }
@@ -213,18 +213,24 @@ BrickId Front::not_finite() const {
   return kNoBrick;
 }
 
-void Front::read(Frame& out) const {
+std::size_t Front::motion_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(members_.begin(), members_.end(), [](const Member& member) { return member.moving || member.just_rested; }));
+}
+
+void Front::read(std::span<FreeMotion> out, Energy& energy) const {
+  std::size_t next = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving && !members_[i].just_rested) continue;
     const Body& body = bodies_[i];
-    out.free.push_back({body.id,
-                        world_.phase[static_cast<std::size_t>(body.id)],
-                        {body.position, body.orientation},
-                        body.velocity,
-                        body.angular_velocity});
+    out[next++] = {body.id,
+                   members_[i].moving ? Phase::falling : Phase::resting,
+                   {body.position, body.orientation},
+                   body.velocity,
+                   body.angular_velocity};
     if (!members_[i].moving) continue;
-    out.energy.kinetic += kinetic_energy(body);
-    out.energy.potential += potential_energy(world_, body.id, body.position.z);
+    energy.kinetic += kinetic_energy(body);
+    energy.potential += potential_energy(world_, body.id, body.position.z);
   }
 }
 

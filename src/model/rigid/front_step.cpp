@@ -304,7 +304,7 @@ void Front::velocities(double time, double now) {
   kick(0.5 * time);
   solver_.guess(touches_, 0.5 * time);
   solve_contacts();
-  world_.push_work += work_;
+  ledger_.push_work += work_;
   work_ = 0.0;
   for (Touch& touch : touches_) touch.impulse = 0.0;
   remember_forces(time);

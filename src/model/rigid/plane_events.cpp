@@ -112,7 +112,7 @@ void PlaneFront::note_rest(int place, double now) {
     events_.push_back(plain_event(EventKind::landed, now, brick.id, by));
   }
   const BrickId next = next_of_part(world_.layout, brick.id);
-  if (fallen && by == kNoBrick && next != kNoBrick && world_.phase[static_cast<std::size_t>(next)] == Phase::standing) {
+  if (fallen && by == kNoBrick && next != kNoBrick && world_.phase[static_cast<std::size_t>(next)] == Phase::standing && !moves(next)) {
     events_.push_back(plain_event(EventKind::missed, now, brick.id, next));
   }
   events_.push_back(plain_event(EventKind::rested, now, brick.id, by));
@@ -134,7 +134,7 @@ void PlaneFront::begin_push(const Push& push, double now) {
     const PlaneVec toe = arm(way * along, -up);
     const double speed = way * spin->angular_speed;
     brick.velocity = {-speed * toe.z, speed * toe.x, speed};
-    world_.push_work += kinetic_energy(brick) - before;
+    ledger_.push_work += kinetic_energy(brick) - before;
     for (PlaneTouch& touch : touches_) {
       if (touch.a == place || touch.b == place) touch.memory = {};
     }
@@ -154,7 +154,7 @@ void PlaneFront::begin_push(const Push& push, double now) {
     this->blow(true);
     const PlaneBrick& pushed = bricks_[static_cast<std::size_t>(place)];
     // Work of a blow: the impulse times the mean velocity of its point, before and after.
-    world_.push_work += 0.5 * impulse * (speed_before + pushed.velocity.x + pushed.velocity.turn * at.z);
+    ledger_.push_work += 0.5 * impulse * (speed_before + pushed.velocity.x + pushed.velocity.turn * at.z);
     event.impulse = blow.impulse;
     event.point = in_world(pushed.box.place.x + at.x, pushed.box.place.z + at.z);
   }
@@ -181,15 +181,21 @@ BrickId PlaneFront::not_finite() const {
   return kNoBrick;
 }
 
-void PlaneFront::read(Frame& out) const {
+std::size_t PlaneFront::motion_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(bricks_.begin(), bricks_.end(), [](const PlaneBrick& brick) { return brick.moving || brick.just_rested; }));
+}
+
+void PlaneFront::read(std::span<FreeMotion> out, Energy& energy) const {
+  std::size_t next = 0;
   for (const PlaneBrick& brick : bricks_) {
     if (!brick.moving && !brick.just_rested) continue;
     const PlaneVec& v = brick.velocity;
-    out.free.push_back({brick.id, world_.phase[static_cast<std::size_t>(brick.id)], pose_of(brick),
-                        v.x * plane_.along + Vec3{0.0, 0.0, v.z}, v.turn * plane_.across});
+    out[next++] = {brick.id, brick.moving ? Phase::falling : Phase::resting, pose_of(brick), v.x * plane_.along + Vec3{0.0, 0.0, v.z},
+                   v.turn * plane_.across};
     if (!brick.moving) continue;
-    out.energy.kinetic += kinetic_energy(brick);
-    out.energy.potential += potential_energy(world_, brick.id, brick.box.place.z);
+    energy.kinetic += kinetic_energy(brick);
+    energy.potential += potential_energy(world_, brick.id, brick.box.place.z);
   }
 }
 

@@ -31,8 +31,13 @@ PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(
 }
 
 int PlaneFront::place_of(BrickId brick) const {
-  const auto at = static_cast<std::size_t>(brick);
-  return brick >= 0 && world_.front[at] == number_ ? world_.place[at] : -1;
+  if (brick < 0 || !owns(brick)) return -1;
+  const auto noted = static_cast<std::size_t>(world_.noted_place(brick));
+  if (noted < bricks_.size() && bricks_[noted].id == brick) return static_cast<int>(noted);
+  for (std::size_t i = 0; i < bricks_.size(); ++i) {
+    if (bricks_[i].id == brick) return static_cast<int>(i);
+  }
+  return -1;
 }
 
 Vec3 PlaneFront::in_world(double x, double z) const {
@@ -95,8 +100,8 @@ int PlaneFront::add(BrickId brick, const PlaneVec& place) {
   added.kind = put.kind;
   half_width_ = std::max(half_width_, 0.5 * size.across);
   const int index = static_cast<int>(bricks_.size());
-  world_.front[at] = number_;
-  world_.place[at] = index;
+  ledger_.take(brick);
+  world_.note_place(brick, index);
   bricks_.push_back(added);
   return index;
 }
@@ -105,9 +110,7 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
   int place = place_of(brick);
   if (place < 0) place = add(brick, locate(brick, 0.0).place);
   if (bricks_[static_cast<std::size_t>(place)].moving) return;
-  const auto at = static_cast<std::size_t>(brick);
-  if (world_.phase[at] == Phase::resting) world_.resting_energy -= potential_energy(world_, brick, world_.pose[at].position.z);
-  world_.phase[at] = Phase::falling;
+  ledger_.woken.push_back(brick);
   PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
   woken.moving = true;
   woken.quiet = 0.0;
@@ -163,7 +166,7 @@ void PlaneFront::list_neighbours(int place) {
       const InPlane found = locate(other, half_width_);
       if (found.misses) continue;
       if (front != kNoFront) {
-        if (std::find(met_.begin(), met_.end(), front) == met_.end()) met_.push_back(front);
+        meet(front);
         continue;
       }
       if (!found.lies) {
@@ -206,7 +209,7 @@ void PlaneFront::list_those_that_strayed() {
     const double allowed = 0.24 * bricks_[i].radius;
     if (strayed.x * strayed.x + strayed.z * strayed.z < allowed * allowed) continue;
     const PlaneVec& before = bricks_[i].listed_at;
-    world_.neighbours.moved(bricks_[i].id, in_world(before.x, before.z), in_world(bricks_[i].box.place.x, bricks_[i].box.place.z));
+    ledger_.moves.push_back({bricks_[i].id, in_world(before.x, before.z), in_world(bricks_[i].box.place.x, bricks_[i].box.place.z)});
     list_neighbours(static_cast<int>(i));
   }
   if (touches_.size() != pairs || rested_) {
@@ -233,7 +236,7 @@ void PlaneFront::drop_idle() {
     if (touch.b >= 0) bricks_[static_cast<std::size_t>(touch.b)].unknown = 0;
   }
   for (const PlaneBrick& brick : bricks_) {
-    if (brick.unknown < 0) world_.front[static_cast<std::size_t>(brick.id)] = kNoFront;
+    if (brick.unknown < 0) ledger_.leave(brick.id);
   }
 }
 
@@ -245,7 +248,7 @@ void PlaneFront::order() {
   kept.clear();
   by_place.clear();
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
-    if (world_.front[static_cast<std::size_t>(bricks_[i].id)] == number_) by_place.push_back(static_cast<int>(i));
+    if (owns(bricks_[i].id)) by_place.push_back(static_cast<int>(i));
   }
   std::sort(by_place.begin(), by_place.end(), [this](int l, int r) {
     const PlaneBrick& left = bricks_[static_cast<std::size_t>(l)];
@@ -255,7 +258,7 @@ void PlaneFront::order() {
   for (const int from : by_place) {
     renamed_[static_cast<std::size_t>(from)] = static_cast<int>(kept.size());
     kept.push_back(bricks_[static_cast<std::size_t>(from)]);
-    world_.place[static_cast<std::size_t>(kept.back().id)] = static_cast<int>(kept.size()) - 1;
+    world_.note_place(kept.back().id, static_cast<int>(kept.size()) - 1);
   }
   bricks_.swap(kept);
   for (PlaneTouch& touch : touches_) {
@@ -323,11 +326,9 @@ void PlaneFront::retire(double time) {
     brick.moving = false;
     brick.just_rested = true;
     --moving_;
-    const auto id = static_cast<std::size_t>(brick.id);
-    world_.neighbours.moved(brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z));
-    world_.pose[id] = pose_of(brick);
-    world_.phase[id] = Phase::resting;
-    world_.resting_energy += potential_energy(world_, brick.id, brick.box.place.z);
+    ledger_.moves.push_back(
+        {brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z)});
+    ledger_.rested.push_back({brick.id, pose_of(brick)});
     note_rest(static_cast<int>(i), time);
     brick.velocity = {};
     brick.middle = {};
@@ -340,9 +341,24 @@ void PlaneFront::retire(double time) {
   }
 }
 
+void PlaneFront::disband() {
+  for (const PlaneBrick& brick : bricks_) {
+    std::int32_t& owner = world_.front[static_cast<std::size_t>(brick.id)];
+    if (owner == number_) owner = kNoFront;
+  }
+}
+
+bool PlaneFront::moves(BrickId brick) const {
+  const int place = place_of(brick);
+  return place >= 0 && bricks_[static_cast<std::size_t>(place)].moving;
+}
+
+// Everything between steps.
 void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveForce>& forces) {
   for (const PlaneBrick& brick : bricks_) {
-    world_.front[static_cast<std::size_t>(brick.id)] = kNoFront;
+    std::int32_t& owner = world_.front[static_cast<std::size_t>(brick.id)];
+    if (owner != number_) continue;
+    owner = kNoFront;
     if (!brick.moving) continue;
     // Who takes it over lists it where it is now; left in the cell where this front listed it, it would be looked for in the wrong one.
     world_.neighbours.moved(brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z));

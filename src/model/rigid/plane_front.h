@@ -76,14 +76,19 @@ class PlaneFront final : public Wave {
   bool at_rest() const override { return moving_ == 0; }
   void add_to(Hash& hash) const override;
   BrickId not_finite() const override;
-  void read(Frame& out) const override;
+  std::size_t motion_count() const override;
+  void read(std::span<FreeMotion> out, Energy& energy) const override;
   void read(std::vector<Contact>& out) const override;
   bool must_join() const override { return leaves_plane_ || !met_.empty(); }
+  bool general() const override { return false; }
+  void disband() override;
 
   /// Everything that moves, for another kind of front to go on with; this one ends.
   void hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveForce>& forces);
 
  private:
+  bool moves(BrickId brick) const override;
+  void lose(BrickId /*brick*/) override {}  // It joins the other front before the next step, and hands over only what it owns.
   struct InPlane {
     bool lies = false;    ///< In the plane.
     bool misses = false;  ///< Its width does not reach any of the plane's bricks.

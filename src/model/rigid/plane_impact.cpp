@@ -118,7 +118,7 @@ void PlaneFront::accept_drift(double cut, double whole) {
     brick.velocity = brick.velocity + (2.0 * cut / whole) * (brick.middle - brick.velocity);
   }
   for (const Force& force : forces_) work += force.along * work_place(force);
-  world_.push_work += work;
+  ledger_.push_work += work;
   for (PlaneTouch& touch : touches_) {
     if (cut < whole) {
       const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/crew.h"
 #include "base/hash.h"
 #include "model/rigid/plane_front.h"
 #include "model/rigid/wavefront.h"
@@ -15,10 +16,22 @@ namespace topple::rigid {
 
 namespace {
 
+/// A front in the step that is being done: what it is given, and what is asked of it in the same go.
+struct Turn {
+  Wave* front = nullptr;
+  std::span<const PushMoment> moments;
+  std::uint64_t hash = 0;
+  BrickId not_finite = kNoBrick;
+  std::size_t first = 0, count = 0;  // Its bricks in the frame.
+  Energy energy;
+};
+
 class RigidModel final : public Model {
  public:
   RigidModel(const Layout& layout, const RigidConfig& config)
-      : world_(layout), step_(config.time_step > 0.0 ? config.time_step : default_time_step(layout)) {
+      : world_(layout),
+        step_(config.time_step > 0.0 ? config.time_step : default_time_step(layout)),
+        crew_(config.crew != nullptr ? *config.crew : alone_) {
     world_.step = step_;
     world_.every_brick_moves = config.every_brick_moves;
     plan_pushes();
@@ -41,7 +54,10 @@ class RigidModel final : public Model {
   void join(std::size_t number);
   Front& general(std::size_t number);
   void join_fronts();
+  void dismiss_those_at_rest();
+  void plan_turns();
   void advance_fronts(double begin);
+  void settle();
   void gather();
   Status check() const;
 
@@ -51,8 +67,12 @@ class RigidModel final : public Model {
   std::vector<PushMoment> moments_;  // All of the run, in the order of time.
   std::size_t next_moment_ = 0;
   std::size_t last_moment_ = 0;
-  std::vector<PushMoment> now_;
+  std::vector<PushMoment> now_;                // Of this step, by front.
   std::vector<std::unique_ptr<Wave>> fronts_;  // By number; null where a front has been taken over.
+  mutable std::vector<Turn> turns_;            // One a front, by number.
+  std::vector<std::size_t> order_;             // In which turns are given out: long ones first.
+  Crew alone_{1};
+  Crew& crew_;
   std::vector<Event> events_;
   mutable std::vector<Contact> contacts_;  // Filled when somebody asks.
   Hash hash_;
@@ -70,6 +90,7 @@ void RigidModel::wake_all() {
   for (BrickId brick = 0; brick < world_.layout.brick_count(); ++brick) {
     if (brick == 0) fronts_.push_back(std::make_unique<Front>(world_, 0));
     fronts_[0]->wake(brick, 0.0);
+    fronts_[0]->enter_all();
   }
 }
 
@@ -92,7 +113,10 @@ void RigidModel::begin_pushes(double end) {
   last_moment_ = next_moment_;
   while (last_moment_ < moments_.size() && moments_[last_moment_].time < end) {
     const PushMoment& moment = moments_[last_moment_++];
-    if (moment.push != nullptr) front_of(moment.brick).wake(moment.brick, moment.time);
+    if (moment.push == nullptr) continue;
+    Wave& front = front_of(moment.brick);
+    front.wake(moment.brick, moment.time);
+    front.enter_all();
   }
 }
 
@@ -104,6 +128,7 @@ Front& RigidModel::general(std::size_t number) {
     plane->hand_over(bricks, forces);
     auto front = std::make_unique<Front>(world_, static_cast<std::int32_t>(number));
     front->adopt(bricks, forces);
+    front->enter_all();
     fronts_[number] = std::move(front);
   }
   return static_cast<Front&>(*fronts_[number]);
@@ -130,25 +155,65 @@ void RigidModel::join_fronts() {
   }
 }
 
-void RigidModel::advance_fronts(double begin) {
+void RigidModel::dismiss_those_at_rest() {
+  for (auto& front : fronts_) {
+    if (front == nullptr || !front->at_rest()) continue;
+    front->disband();
+    front.reset();
+  }
+}
+
+// Gives every front its pushes of this step.
+void RigidModel::plan_turns() {
+  turns_.clear();
+  order_.clear();
+  now_.clear();
+  now_.reserve(last_moment_ - next_moment_);
   for (const auto& front : fronts_) {
     if (front == nullptr) continue;
-    now_.clear();
+    const std::size_t first = now_.size();
     for (std::size_t i = next_moment_; i < last_moment_; ++i) {
-      const auto brick = static_cast<std::size_t>(moments_[i].brick);
-      if (world_.front[brick] >= 0 && fronts_[static_cast<std::size_t>(world_.front[brick])] == front) now_.push_back(moments_[i]);
+      if (world_.front[static_cast<std::size_t>(moments_[i].brick)] == front->number()) now_.push_back(moments_[i]);
     }
-    front->advance(begin, now_);
+    turns_.push_back({.front = front.get(), .moments = std::span(now_).subspan(first)});
+    if (front->general()) order_.push_back(turns_.size() - 1);
   }
+  for (std::size_t i = 0; i < turns_.size(); ++i) {
+    if (!turns_[i].front->general()) order_.push_back(i);
+  }
+}
+
+void RigidModel::advance_fronts(double begin) {
+  crew_.each(order_.size(), [&](std::size_t i) {
+    Turn& turn = turns_[order_[i]];
+    turn.front->advance(begin, turn.moments);
+    Hash hash;
+    turn.front->add_to(hash);
+    turn.hash = hash.value();
+    turn.not_finite = turn.front->not_finite();
+    turn.count = turn.front->motion_count();
+  });
   next_moment_ = last_moment_;
 }
 
-// One step: begin the pushes, join what has met, advance every front, gather what happened, check that it is finite.
+// What the fronts did becomes known to all, in the order of their numbers.
+void RigidModel::settle() {
+  for (const Turn& turn : turns_) turn.front->enter_leavings();
+  for (const Turn& turn : turns_) turn.front->enter_takings(true);
+  for (const Turn& turn : turns_) turn.front->enter_takings(false);
+  for (const Turn& turn : turns_) turn.front->enter_changes();
+}
+
+// One step: begin the pushes, join what has met, dismiss what rests, advance every front, let all know what each did, gather what
+// happened, check that it is finite.
 Status RigidModel::step() {
   const double begin = static_cast<double>(count_) * step_;
   begin_pushes(begin + step_);
   join_fronts();
+  dismiss_those_at_rest();
+  plan_turns();
   advance_fronts(begin);
+  settle();
   ++count_;
   gather();
   return check();
@@ -156,10 +221,9 @@ Status RigidModel::step() {
 
 void RigidModel::gather() {
   events_.clear();
-  for (const auto& front : fronts_) {
-    if (front == nullptr) continue;
-    events_.insert(events_.end(), front->events().begin(), front->events().end());
-    front->add_to(hash_);
+  for (const Turn& turn : turns_) {
+    events_.insert(events_.end(), turn.front->events().begin(), turn.front->events().end());
+    hash_.add(turn.hash);
   }
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& l, const Event& r) { return l.time != r.time ? l.time < r.time : l.brick < r.brick; });
@@ -167,11 +231,9 @@ void RigidModel::gather() {
 
 Status RigidModel::check() const {
   bool moving = false;
-  for (const auto& front : fronts_) {
-    if (front == nullptr) continue;
-    const BrickId brick = front->not_finite();
-    if (brick != kNoBrick) return {Progress::not_finite, brick};
-    moving = moving || !front->at_rest();
+  for (const Turn& turn : turns_) {
+    if (turn.not_finite != kNoBrick) return {Progress::not_finite, turn.not_finite};
+    moving = moving || !turn.front->at_rest();
   }
   if (!moving && next_moment_ == moments_.size()) return {Progress::at_rest, kNoBrick};
   return {};
@@ -180,20 +242,28 @@ Status RigidModel::check() const {
 void RigidModel::read(Frame& out) const {
   out.time = static_cast<double>(count_) * step_;
   out.hinged.clear();
-  out.free.clear();
   out.kinks.clear();
   out.energy = {.kinetic = 0.0, .potential = world_.resting_energy, .push_work = world_.push_work};
-  for (const auto& front : fronts_) {
-    if (front != nullptr) front->read(out);
+  std::size_t count = 0;
+  for (Turn& turn : turns_) {
+    turn.first = count;
+    turn.energy = {};
+    count += turn.count;
   }
-  std::sort(out.free.begin(), out.free.end(), [](const FreeMotion& l, const FreeMotion& r) { return l.brick < r.brick; });
+  out.free.resize(count);
+  crew_.each(turns_.size(), [&](std::size_t i) {
+    Turn& turn = turns_[i];
+    turn.front->read(std::span(out.free).subspan(turn.first, turn.count), turn.energy);
+  });
+  for (const Turn& turn : turns_) {
+    out.energy.kinetic += turn.energy.kinetic;
+    out.energy.potential += turn.energy.potential;
+  }
 }
 
 std::span<const Contact> RigidModel::contacts() const {
   contacts_.clear();
-  for (const auto& front : fronts_) {
-    if (front != nullptr) front->read(contacts_);
-  }
+  for (const Turn& turn : turns_) turn.front->read(contacts_);
   return contacts_;
 }
 

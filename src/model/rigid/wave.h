@@ -36,6 +36,7 @@ struct HandedBrick {
   bool landed = false;
 };
 
+/// While fronts are advanced they may run side by side: advance() reads the world and writes to the front's own ledger alone.
 class Wave {
  public:
   explicit Wave(World& world, std::int32_t number) : world_(world), number_(number) {}
@@ -51,18 +52,42 @@ class Wave {
   virtual void add_to(Hash& hash) const = 0;
   /// A brick whose numbers are not finite, or none.
   virtual BrickId not_finite() const = 0;
-  /// Appends the bricks that moved in the last step, and adds their energy.
-  virtual void read(Frame& out) const = 0;
+  /// How many bricks moved in the last step.
+  virtual std::size_t motion_count() const = 0;
+  /// Writes those bricks, so many, and adds the energy of what moves.
+  virtual void read(std::span<FreeMotion> out, Energy& energy) const = 0;
   virtual void read(std::vector<Contact>& out) const = 0;
   /// Whether it cannot go on by itself: bricks of another front are within reach, or what it cannot compute.
   virtual bool must_join() const = 0;
+  virtual bool general() const = 0;  ///< Six degrees of freedom a brick: its steps are long.
 
+  std::int32_t number() const { return number_; }
   std::span<const Event> events() const { return events_; }
   std::span<const std::int32_t> met() const { return met_; }  ///< Other fronts whose bricks are within reach.
 
+  // What it did, entered in the world; between steps, and for one front after the other.
+  void enter_leavings();
+  void enter_takings(bool of_those_that_move);
+  void enter_changes() { world_.enter(ledger_); }
+  /// All of it, for a front that works alone.
+  void enter_all();
+  /// A front of which nothing moves: its bricks belong to nobody.
+  virtual void disband() = 0;
+
  protected:
+  /// Whether a brick belongs to this front, in this moment of its step.
+  bool owns(BrickId brick) const {
+    if (world_.front[static_cast<std::size_t>(brick)] == number_) return ledger_.left.empty() || !ledger_.gave_up(brick);
+    return !ledger_.taken.empty() && ledger_.took(brick);
+  }
+  void meet(std::int32_t other);
+  virtual bool moves(BrickId brick) const = 0;
+  /// Another front has taken, in the same step, a brick that this one took too.
+  virtual void lose(BrickId brick) = 0;
+
   World& world_;
   std::int32_t number_ = 0;
+  Ledger ledger_;
   std::vector<Event> events_;
   std::vector<std::int32_t> met_;
 };

@@ -22,15 +22,41 @@ double displacement(const Body& body, const Vec3& position, const Quat& orientat
 
 int Front::place_of(BrickId brick) const {
   const auto at = static_cast<std::size_t>(brick);
-  if (world_.front[at] == number_) return world_.place[at];
-  if (world_.front[at] == kNoFront) return -1;
+  if (world_.front[at] == kNoFront && (ledger_.taken.empty() || !ledger_.took(brick))) return -1;
+  const auto noted = static_cast<std::size_t>(world_.noted_place(brick));
+  if (noted < bodies_.size() && bodies_[noted].id == brick) return static_cast<int>(noted);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].id == brick) return static_cast<int>(i);
   }
   return -1;
 }
 
-bool Front::has_front(std::int32_t other) const { return std::find(met_.begin(), met_.end(), other) != met_.end(); }
+bool Front::moves(BrickId brick) const {
+  const int place = place_of(brick);
+  return place >= 0 && members_[static_cast<std::size_t>(place)].moving;
+}
+
+void Front::lose(BrickId brick) {
+  const int place = place_of(brick);
+  if (place < 0) return;
+  Member& member = members_[static_cast<std::size_t>(place)];
+  Body& body = bodies_[static_cast<std::size_t>(place)];
+  if (member.moving) --moving_;
+  member.moving = false;
+  member.ghost = true;
+  body.velocity = {};
+  body.angular_velocity = {};
+  body.inverse_mass = 0.0;
+  body.inverse_inertia = Mat3{};
+  std::erase_if(touches_, [place](const Touch& touch) { return touch.b == kFloor && touch.a == place; });
+}
+
+void Front::disband() {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    std::int32_t& owner = world_.front[static_cast<std::size_t>(bodies_[i].id)];
+    if (owner == number_) owner = kNoFront;
+  }
+}
 
 int Front::add(BrickId brick) {
   const auto at = static_cast<std::size_t>(brick);
@@ -44,12 +70,12 @@ int Front::add(BrickId brick) {
   member.time_scale = std::sqrt(longest(body) / world_.gravity);
   const Quat put_down = standing_pose(world_.layout, brick).orientation;
   member.local_up = rotate(conjugate(put_down), Vec3{0.0, 0.0, 1.0});
-  if (world_.front[at] == kNoFront) {
-    world_.front[at] = number_;
-    world_.place[at] = place;
+  if (world_.front[at] == kNoFront || world_.front[at] == number_) {
+    ledger_.take(brick);
+    world_.note_place(brick, place);
   } else {
     member.ghost = true;
-    if (!has_front(world_.front[at])) met_.push_back(world_.front[at]);
+    meet(world_.front[at]);
   }
   bodies_.push_back(body);
   members_.push_back(member);
@@ -94,7 +120,8 @@ void Front::wake_structure(BrickId brick) {
       if (touch.b == kFloor || !touch.bearing || (touch.a != place && touch.b != place)) continue;
       const auto other = static_cast<std::size_t>(touch.a == place ? touch.b : touch.a);
       const BrickId id = bodies_[other].id;
-      if (members_[other].moving || members_[other].ghost || world_.phase[static_cast<std::size_t>(id)] != Phase::standing) continue;
+      if (members_[other].moving || members_[other].ghost || members_[other].just_rested) continue;
+      if (world_.phase[static_cast<std::size_t>(id)] != Phase::standing) continue;
       roused.push_back(id);
     }
     for (std::size_t k = known; k < roused.size(); ++k) {
@@ -108,12 +135,7 @@ void Front::rouse(BrickId brick) {
   int place = place_of(brick);
   if (place < 0) place = add(brick);
   if (members_[static_cast<std::size_t>(place)].moving) return;
-  const auto at = static_cast<std::size_t>(brick);
-  if (world_.phase[at] == Phase::resting) {
-    const Body& body = bodies_[static_cast<std::size_t>(place)];
-    world_.resting_energy -= potential_energy(world_, brick, body.position.z);
-  }
-  world_.phase[at] = Phase::falling;
+  ledger_.woken.push_back(brick);
   set_moving(place);
   list_neighbours(place);
   order_touches();
@@ -173,7 +195,7 @@ void Front::list_those_that_strayed() {
     const Vec3 strayed = bodies_[i].position - members_[i].listed_at;
     const double allowed = 0.15 * bodies_[i].radius;
     if (dot(strayed, strayed) < allowed * allowed) continue;
-    world_.neighbours.moved(bodies_[i].id, members_[i].listed_at, bodies_[i].position);
+    ledger_.moves.push_back({bodies_[i].id, members_[i].listed_at, bodies_[i].position});
     list_neighbours(static_cast<int>(i));
     changed = true;
   }
@@ -201,13 +223,12 @@ void Front::drop_idle() {
   }
   int kept = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto id = static_cast<std::size_t>(bodies_[i].id);
     if (renamed[i] < 0) {
-      if (!members_[i].ghost) world_.front[id] = kNoFront;
+      if (!members_[i].ghost) ledger_.leave(bodies_[i].id);
       continue;
     }
     renamed[i] = kept;
-    if (!members_[i].ghost) world_.place[id] = kept;
+    if (!members_[i].ghost) world_.note_place(bodies_[i].id, kept);
     if (static_cast<std::size_t>(kept) != i) {
       bodies_[static_cast<std::size_t>(kept)] = bodies_[i];
       members_[static_cast<std::size_t>(kept)] = members_[i];
@@ -275,11 +296,8 @@ void Front::retire(double time) {
     member.moving = false;
     member.just_rested = true;
     --moving_;
-    const auto id = static_cast<std::size_t>(body.id);
-    world_.neighbours.moved(body.id, member.listed_at, body.position);
-    world_.pose[id] = {body.position, body.orientation};
-    world_.phase[id] = Phase::resting;
-    world_.resting_energy += potential_energy(world_, body.id, body.position.z);
+    ledger_.moves.push_back({body.id, member.listed_at, body.position});
+    ledger_.rested.push_back({body.id, {body.position, body.orientation}});
     note_rest(static_cast<int>(i), time);
     body.velocity = {};
     body.angular_velocity = {};
@@ -321,7 +339,7 @@ void Front::absorb(Front& other) {
   for (std::size_t i = 0; i < other.bodies_.size(); ++i) {
     const auto id = static_cast<std::size_t>(other.bodies_[i].id);
     const int ghost = place_of(other.bodies_[i].id);
-    if (other.members_[i].ghost) {
+    if (other.members_[i].ghost || world_.front[id] != other.number_) {
       // Either ours, or of a third front.
       if (ghost < 0) {
         bodies_.push_back(other.bodies_[i]);
@@ -340,7 +358,7 @@ void Front::absorb(Front& other) {
       members_.push_back(other.members_[i]);
     }
     world_.front[id] = number_;
-    world_.place[id] = place;
+    world_.note_place(bodies_[static_cast<std::size_t>(place)].id, place);
   }
   for (const Touch& theirs : other.touches_) {
     Touch touch = theirs;
@@ -352,9 +370,7 @@ void Front::absorb(Front& other) {
   moving_ += other.moving_;
   forces_.insert(forces_.end(), other.forces_.begin(), other.forces_.end());
   events_.insert(events_.end(), other.events_.begin(), other.events_.end());
-  for (const std::int32_t number : other.met_) {
-    if (number != number_ && !has_front(number)) met_.push_back(number);
-  }
+  for (const std::int32_t number : other.met_) meet(number);
   order_touches();
 }
 

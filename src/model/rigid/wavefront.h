@@ -39,9 +39,12 @@ class Front final : public Wave {
   bool at_rest() const override { return moving_ == 0; }
   void add_to(Hash& hash) const override;
   BrickId not_finite() const override;
-  void read(Frame& out) const override;
+  std::size_t motion_count() const override;
+  void read(std::span<FreeMotion> out, Energy& energy) const override;
   void read(std::vector<Contact>& out) const override;
   bool must_join() const override { return !met_.empty(); }
+  bool general() const override { return true; }
+  void disband() override;
 
   /// Takes over everything of another front.
   void absorb(Front& other);
@@ -50,6 +53,8 @@ class Front final : public Wave {
   void clear_met() { met_.clear(); }
 
  private:
+  bool moves(BrickId brick) const override;
+  void lose(BrickId brick) override;
   int place_of(BrickId brick) const;
   void retire(double time);
   int add(BrickId brick);
@@ -89,7 +94,6 @@ class Front final : public Wave {
   void begin_push(const Push& push, double now);
   void take_blow();
   BrickId supporter(int place) const;
-  bool has_front(std::int32_t other) const;
 
   int moving_ = 0;
   bool rested_ = false;  // Some brick came to rest since the lists were made.

@@ -20,6 +20,37 @@ World::World(const Layout& source) : layout(source), neighbours(source), gravity
   for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing_pose(source, brick));
 }
 
+void Ledger::take(BrickId brick) {
+  if (std::erase(left, brick) == 0) taken.push_back(brick);
+}
+
+void Ledger::leave(BrickId brick) {
+  if (std::erase(taken, brick) == 0) left.push_back(brick);
+}
+
+bool Ledger::took(BrickId brick) const { return std::find(taken.begin(), taken.end(), brick) != taken.end(); }
+bool Ledger::gave_up(BrickId brick) const { return std::find(left.begin(), left.end(), brick) != left.end(); }
+
+void World::enter(Ledger& ledger) {
+  for (const BrickId brick : ledger.woken) {
+    const auto at = static_cast<std::size_t>(brick);
+    if (phase[at] == Phase::resting) resting_energy -= potential_energy(*this, brick, pose[at].position.z);
+    phase[at] = Phase::falling;
+  }
+  for (const Ledger::Rest& rest : ledger.rested) {
+    const auto at = static_cast<std::size_t>(rest.brick);
+    phase[at] = Phase::resting;
+    pose[at] = rest.pose;
+    resting_energy += potential_energy(*this, rest.brick, rest.pose.position.z);
+  }
+  for (const Ledger::Move& move : ledger.moves) neighbours.moved(move.brick, move.from, move.to);
+  push_work += ledger.push_work;
+  ledger.woken.clear();
+  ledger.rested.clear();
+  ledger.moves.clear();
+  ledger.push_work = 0.0;
+}
+
 double potential_energy(const World& world, BrickId brick, double height) {
   const Brick& put = world.layout.bricks[static_cast<std::size_t>(brick)];
   const BrickKind& kind = world.layout.kinds[put.kind];

@@ -1,6 +1,7 @@
 /// What all fronts share: the layout, the tolerances, and where each brick is that does not move.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -10,6 +11,30 @@
 namespace topple::rigid {
 
 inline constexpr std::int32_t kNoFront = -1;
+
+/// What one front does to the world in a step. Fronts are advanced side by side and see the world as it was when the step began; what they
+/// did is entered when all are done, in the order of their numbers, so that no number of threads changes anything.
+struct Ledger {
+  struct Move {
+    BrickId brick = kNoBrick;
+    Vec3 from, to;
+  };
+  struct Rest {
+    BrickId brick = kNoBrick;
+    Pose pose;
+  };
+  std::vector<BrickId> taken;  ///< Belong to the front from now on.
+  std::vector<BrickId> left;   ///< Do no longer.
+  std::vector<BrickId> woken;
+  std::vector<Rest> rested;
+  std::vector<Move> moves;  ///< From cell to cell of the neighbours.
+  double push_work = 0.0;   ///< [J]
+
+  void take(BrickId brick);
+  void leave(BrickId brick);
+  bool took(BrickId brick) const;
+  bool gave_up(BrickId brick) const;
+};
 
 /// Pure numbers that scale with a brick: lengths are fractions of the thinnest side, times of sqrt(height / gravity).
 struct Tolerances {
@@ -35,7 +60,7 @@ struct World {
   std::vector<Pose> pose;             ///< Of each brick that does not move.
   std::vector<std::uint8_t> arrived;  ///< Whether the wave has been there.
   std::vector<std::int32_t> front;    ///< The front that a brick belongs to, moving or in its way.
-  std::vector<std::int32_t> place;    ///< In the list of that front.
+  std::vector<std::int32_t> place;    ///< In the list of that front, as a hint: see note_place().
   double gravity = 9.81;              ///< [m/s^2]
   double step = 0.0;                  ///< [s]
   double smallest = 0.0;              ///< Longest side of the smallest brick [m].
@@ -45,6 +70,18 @@ struct World {
   bool stacked = false;         ///< Some bricks stand on others.
   bool balls = false;           ///< Some are balls.
   bool every_brick_moves = false;
+
+  /// Where a brick may be in its front's list. Two fronts may take one brick in one step, before it is known whose it is; so a hint is
+  /// believed only where the list agrees with it.
+  std::int32_t noted_place(BrickId brick) {
+    return std::atomic_ref(place[static_cast<std::size_t>(brick)]).load(std::memory_order_relaxed);
+  }
+  void note_place(BrickId brick, std::int32_t at) {
+    std::atomic_ref(place[static_cast<std::size_t>(brick)]).store(at, std::memory_order_relaxed);
+  }
+
+  /// Enters what a front did but for what it took; the ledger is empty afterwards but for that.
+  void enter(Ledger& ledger);
 };
 
 /// Potential energy of a brick against how it was put down [J].
