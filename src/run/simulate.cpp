@@ -32,7 +32,10 @@ struct Story {
 
 struct Simulation::State {
   State(Layout layout, Recipe recipe, const RunConfig& the_config)
-      : config(the_config), crew(config.threads), recording(std::move(layout), std::move(recipe)), recorder(recording, shared(config.recorder)) {}
+      : config(the_config),
+        crew(config.threads),
+        recording(std::move(layout), std::move(recipe)),
+        recorder(recording, shared(config.recorder)) {}
 
   RecorderConfig shared(RecorderConfig recorder_config) {
     recorder_config.crew = &crew;

@@ -326,8 +326,7 @@ void PlaneFront::retire(double time) {
     brick.moving = false;
     brick.just_rested = true;
     --moving_;
-    ledger_.moves.push_back(
-        {brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z)});
+    ledger_.moves.push_back({brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z)});
     ledger_.rested.push_back({brick.id, pose_of(brick)});
     note_rest(static_cast<int>(i), time);
     brick.velocity = {};
