@@ -54,7 +54,7 @@ void FreeFit::push_knot(const FreeKnot& knot) {
   next_test_ = kFirstTest;
 }
 
-void FreeFit::add(double time, const FreeMotion& motion, TrackStore& out) {
+void FreeFit::add(double time, const FreeMotion& motion) {
   const auto single = [](double x) { return static_cast<float>(x); };
   const Vec3 place = motion.pose.position - put_ - base_place_;
   Quat q = motion.pose.orientation;
@@ -74,9 +74,9 @@ void FreeFit::add(double time, const FreeMotion& motion, TrackStore& out) {
   while (samples_.size() >= next_test_) {
     const std::size_t asked = next_test_;
     if (!fits(asked)) {
-      cut(longest(std::max<std::size_t>(good_, 1), asked), out);
+      cut(longest(std::max<std::size_t>(good_, 1), asked));
     } else if (asked >= kMostSamples) {
-      cut(asked, out);
+      cut(asked);
     } else {
       good_ = asked;
       next_test_ = 2 * asked;
@@ -145,7 +145,7 @@ std::size_t FreeFit::longest(std::size_t good, std::size_t bad) const {
 }
 
 // Ends a segment at sample count - 1 and lets what is left start from there.
-void FreeFit::cut(std::size_t count, TrackStore& out) {
+void FreeFit::cut(std::size_t count) {
   const double old_time = base_time_;
   const Vec3 old_place = base_place_;
   push_knot(knot_of(samples_[count - 1]));
@@ -157,21 +157,34 @@ void FreeFit::cut(std::size_t count, TrackStore& out) {
   if (knots_.size() < kMostKnots && base_time_ <= kLongestPiece) return;
   FreeKnot last = knots_.back();
   const double end = start_ + base_time_;
-  store(out);
+  finish_piece();
   start_ = end;
   last.time = 0.0F;
   push_knot(last);
 }
 
-void FreeFit::store(TrackStore& out) {
-  out.add(brick_, start_, std::span<const FreeKnot>(knots_));
+void FreeFit::finish_piece() {
+  if (knots_.empty()) return;
+  const std::size_t before = code_.size();
+  encode(knots_, code_);
+  finished_.push_back({start_, code_.size() - before});
   knots_.clear();
 }
 
-void FreeFit::close(bool still, TrackStore& out) {
+void FreeFit::store_finished(TrackStore& out) {
+  std::size_t from = 0;
+  for (const Finished& piece : finished_) {
+    out.add_code(brick_, piece.start, std::span(code_).subspan(from, piece.bytes));
+    from += piece.bytes;
+  }
+  finished_.clear();
+  code_.clear();
+}
+
+void FreeFit::close(bool still) {
   while (!samples_.empty()) {
     const std::size_t all = samples_.size();
-    cut(fits(all) ? all : longest(std::max<std::size_t>(good_, 1), all), out);
+    cut(fits(all) ? all : longest(std::max<std::size_t>(good_, 1), all));
   }
   FreeKnot& last = knots_.back();
   const bool rests = last.vx == 0.0F && last.vy == 0.0F && last.vz == 0.0F && last.wx == 0.0F && last.wy == 0.0F && last.wz == 0.0F;
@@ -181,8 +194,7 @@ void FreeFit::close(bool still, TrackStore& out) {
     stopped.vx = stopped.vy = stopped.vz = stopped.wx = stopped.wy = stopped.wz = 0.0F;
     knots_.push_back(stopped);
   }
-  store(out);
-  brick_ = kNoBrick;
+  finish_piece();
 }
 
 }  // namespace topple

@@ -21,8 +21,13 @@ class FreeFit {
   void open(BrickId brick, double time, const FreeKnot& first, const Vec3& put, const Accuracy& accuracy);
   BrickId brick() const { return brick_; }
 
-  void add(double time, const FreeMotion& motion, TrackStore& out);
-  void close(bool still, TrackStore& out);  ///< `still`: it rests where it is.
+  void add(double time, const FreeMotion& motion);
+  void close(bool still);  ///< `still`: it rests where it is.
+
+  /// Pieces that are finished wait here: one track is fitted beside others, but they are stored one after the other.
+  bool has_finished() const { return !finished_.empty(); }
+  void store_finished(TrackStore& out);
+  void end() { brick_ = kNoBrick; }
 
  private:
   using Four = float __attribute__((vector_size(16)));
@@ -38,9 +43,9 @@ class FreeFit {
   FreeKnot knot_of(const Sample& sample) const;
   bool fits(std::size_t count) const;
   std::size_t longest(std::size_t good, std::size_t bad) const;
-  void cut(std::size_t count, TrackStore& out);
+  void cut(std::size_t count);
   void push_knot(const FreeKnot& knot);
-  void store(TrackStore& out);
+  void finish_piece();
 
   BrickId brick_ = kNoBrick;
   bool round_ = true;         // Knots are multiples of FreeSteps.
@@ -55,6 +60,12 @@ class FreeFit {
   Sample base_;  // The last knot, at place and time 0.
   std::vector<Sample> samples_;
   std::vector<FreeKnot> knots_;
+  struct Finished {
+    double start;
+    std::size_t bytes;
+  };
+  std::vector<Finished> finished_;
+  std::vector<std::uint8_t> code_;  // Of them, one after the other.
 };
 
 }  // namespace topple

@@ -1,10 +1,14 @@
 #include "recording/free_tracks.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace topple {
 
 namespace {
+
+// So many bricks of a frame are worth the handing out.
+constexpr std::size_t kShare = 64;
 
 std::size_t at(BrickId brick) { return static_cast<std::size_t>(brick); }
 
@@ -27,7 +31,6 @@ bool is_finite(const FreeMotion& motion) {
 
 // A track begins where the last one left its brick, or as it was put down, at rest.
 FreeFit& FreeTracks::open(BrickId brick, double start, const Layout& layout, double tolerance, const TrackStore& out) {
-  place_.resize(layout.bricks.size(), kClosed);
   if (unused_.empty()) {
     unused_.push_back(static_cast<std::int32_t>(fits_.size()));
     fits_.emplace_back();
@@ -50,28 +53,60 @@ FreeFit& FreeTracks::open(BrickId brick, double start, const Layout& layout, dou
   return fit;
 }
 
-void FreeTracks::take(const Frame& frame, double time_step, const Layout& layout, double tolerance, TrackStore& out) {
-  for (const FreeMotion& motion : frame.free) {
+// Goes on with the tracks of one share of the frame, and notes what is left to do for all in order.
+void FreeTracks::fit(const Frame& frame, std::size_t share) {
+  std::vector<std::size_t>& left = left_[share];
+  left.clear();
+  const std::size_t end = std::min(frame.free.size(), (share + 1) * kShare);
+  for (std::size_t i = share * kShare; i < end; ++i) {
+    const FreeMotion& motion = frame.free[i];
     const bool moves = motion.phase == Phase::falling;
-    const std::int32_t place = place_.empty() ? kClosed : place_[at(motion.brick)];
+    const std::int32_t place = place_[at(motion.brick)];
     if ((!moves && place == kClosed) || !is_finite(motion)) continue;
-    FreeFit& fit =
-        place == kClosed ? open(motion.brick, frame.time - time_step, layout, tolerance, out) : fits_[static_cast<std::size_t>(place)];
-    fit.add(frame.time, motion, out);
-    if (!moves) close(motion.brick, true, out);
+    if (place != kClosed) {
+      FreeFit& fit = fits_[static_cast<std::size_t>(place)];
+      fit.add(frame.time, motion);
+      if (!moves) fit.close(true);
+      if (!fit.has_finished()) continue;
+    }
+    left.push_back(i);
   }
 }
 
-void FreeTracks::close(BrickId brick, bool still, TrackStore& out) {
-  std::int32_t& place = place_[at(brick)];
-  fits_[static_cast<std::size_t>(place)].close(still, out);
+void FreeTracks::take(const Frame& frame, double time_step, const Layout& layout, double tolerance, TrackStore& out, Crew& crew) {
+  if (frame.free.empty()) return;
+  place_.resize(layout.bricks.size(), kClosed);
+  const std::size_t shares = (frame.free.size() + kShare - 1) / kShare;
+  if (left_.size() < shares) left_.resize(shares);
+  crew.each(shares, [&](std::size_t share) { fit(frame, share); });
+  for (std::size_t share = 0; share < shares; ++share) {
+    for (const std::size_t i : left_[share]) {
+      const FreeMotion& motion = frame.free[i];
+      std::int32_t& place = place_[at(motion.brick)];
+      if (place == kClosed) {
+        open(motion.brick, frame.time - time_step, layout, tolerance, out).add(frame.time, motion);
+      } else {
+        fits_[static_cast<std::size_t>(place)].store_finished(out);
+        if (motion.phase != Phase::falling) close(place, out);
+      }
+    }
+  }
+}
+
+// Of a track that is closed: what is finished of it is stored, its buffers go to the next.
+void FreeTracks::close(std::int32_t& place, TrackStore& out) {
+  FreeFit& fit = fits_[static_cast<std::size_t>(place)];
+  fit.store_finished(out);
+  fit.end();
   unused_.push_back(place);
   place = kClosed;
 }
 
 void FreeTracks::close_all(TrackStore& out) {
-  for (const FreeFit& fit : fits_) {
-    if (fit.brick() != kNoBrick) close(fit.brick(), false, out);
+  for (FreeFit& fit : fits_) {
+    if (fit.brick() == kNoBrick) continue;
+    fit.close(false);
+    close(place_[at(fit.brick())], out);
   }
 }
 

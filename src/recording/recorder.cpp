@@ -23,7 +23,8 @@ bool is_finite(const HingedState& state) { return std::isfinite(state.angle + st
 
 /// The tracks that are not finished. Those that are closed leave their buffers to the next.
 struct Recorder::Open {
-  explicit Open(Recording::Store& the_store) : store(the_store), slot(the_store.layout.bricks.size(), kClosed) {}
+  Open(Recording::Store& the_store, Crew* the_crew)
+      : store(the_store), crew(the_crew != nullptr ? *the_crew : alone), slot(the_store.layout.bricks.size(), kClosed) {}
 
   HingedFit& begin(BrickId brick, double time, HingedState state);
   void wake(const HingedMotion& motion);
@@ -35,6 +36,8 @@ struct Recorder::Open {
   void take_hash(const Model& model);
 
   Recording::Store& store;
+  Crew alone{1};
+  Crew& crew;
   Frame frame;
   double time_step = 0.0;
   std::int64_t step = 0;
@@ -162,7 +165,7 @@ void Recorder::Open::take_hash(const Model& model) {
 }
 
 Recorder::Recorder(Recording& recording, const RecorderConfig& config)
-    : recording_(recording), open_(std::make_unique<Open>(*recording.store_)) {
+    : recording_(recording), open_(std::make_unique<Open>(*recording.store_, config.crew)) {
   recording.store_->tolerance = config.tolerance;
 }
 
@@ -175,7 +178,7 @@ void Recorder::take(const Model& model) {
   ++open.step;
   open.take_kinks();
   open.take_hinged();
-  open.free.take(open.frame, open.time_step, open.store.layout, open.store.tolerance, open.store.tracks);
+  open.free.take(open.frame, open.time_step, open.store.layout, open.store.tolerance, open.store.tracks, open.crew);
   if (open.step % kStepsBetweenCloses == 0) open.close_long_paused();
   for (const Event& event : model.events()) open.store.add_event(event);
   open.take_energy(model.step_count());

@@ -4,9 +4,9 @@
 
 namespace topple {
 
-void TrackStore::keep(BrickId brick, double start) {
+void TrackStore::add_code(BrickId brick, double start, std::span<const std::uint8_t> code) {
   std::int32_t& last = last_[static_cast<std::size_t>(brick)];
-  pieces_.push_back({start, codes_.append(code_), brick, last});
+  pieces_.push_back({start, codes_.append(code), brick, last});
   last = static_cast<std::int32_t>(pieces_.size()) - 1;
 }
 
@@ -14,14 +14,14 @@ void TrackStore::add(BrickId brick, double start, std::span<const HingedKnot> kn
   if (knots.empty()) return;
   code_.clear();
   encode(knots, code_);
-  keep(brick, start);
+  add_code(brick, start, code_);
 }
 
 void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knots) {
   if (knots.empty()) return;
   code_.clear();
   encode(knots, code_);
-  keep(brick, start);
+  add_code(brick, start, code_);
 }
 
 std::optional<HingedKnot> TrackStore::last_knot(std::int32_t index) const {

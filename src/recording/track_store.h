@@ -14,6 +14,7 @@ class TrackStore {
 
   void add(BrickId brick, double start, std::span<const HingedKnot> knots);
   void add(BrickId brick, double start, std::span<const FreeKnot> knots);
+  void add_code(BrickId brick, double start, std::span<const std::uint8_t> code);  ///< Of encode().
 
   std::size_t size() const { return pieces_.size(); }
   Track track(std::size_t index) const;
@@ -35,7 +36,6 @@ class TrackStore {
     BrickId brick;
     std::int32_t previous;
   };
-  void keep(BrickId brick, double start);
 
   Blocks<Piece> pieces_;
   Runs<std::uint8_t> codes_;

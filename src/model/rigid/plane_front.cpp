@@ -352,7 +352,15 @@ bool PlaneFront::moves(BrickId brick) const {
   return place >= 0 && bricks_[static_cast<std::size_t>(place)].moving;
 }
 
-// Everything between steps.
+// It joins the other front before the next step, and hands over only what it owns.
+void PlaneFront::lose(BrickId brick) {
+  for (PlaneBrick& lost : bricks_) {
+    if (lost.id != brick || !lost.moving) continue;
+    lost.moving = false;
+    --moving_;
+  }
+}
+
 void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveForce>& forces) {
   for (const PlaneBrick& brick : bricks_) {
     std::int32_t& owner = world_.front[static_cast<std::size_t>(brick.id)];

@@ -88,7 +88,7 @@ class PlaneFront final : public Wave {
 
  private:
   bool moves(BrickId brick) const override;
-  void lose(BrickId /*brick*/) override {}  // It joins the other front before the next step, and hands over only what it owns.
+  void lose(BrickId brick) override;
   struct InPlane {
     bool lies = false;    ///< In the plane.
     bool misses = false;  ///< Its width does not reach any of the plane's bricks.

@@ -191,7 +191,6 @@ void RigidModel::advance_fronts(double begin) {
     turn.front->add_to(hash);
     turn.hash = hash.value();
     turn.not_finite = turn.front->not_finite();
-    turn.count = turn.front->motion_count();
   });
   next_moment_ = last_moment_;
 }
@@ -199,7 +198,10 @@ void RigidModel::advance_fronts(double begin) {
 // What the fronts did becomes known to all, in the order of their numbers.
 void RigidModel::settle() {
   for (const Turn& turn : turns_) turn.front->enter_leavings();
-  for (const Turn& turn : turns_) turn.front->enter_takings(true);
+  for (Turn& turn : turns_) {
+    turn.front->enter_takings(true);
+    turn.count = turn.front->motion_count();
+  }
   for (const Turn& turn : turns_) turn.front->enter_takings(false);
   for (const Turn& turn : turns_) turn.front->enter_changes();
 }

@@ -67,7 +67,7 @@ class Wave {
 
   // What it did, entered in the world; between steps, and for one front after the other.
   void enter_leavings();
-  void enter_takings(bool of_those_that_move);
+  void enter_takings(bool of_those_that_move);  // May change motion_count().
   void enter_changes() { world_.enter(ledger_); }
   /// All of it, for a front that works alone.
   void enter_all();
