@@ -79,7 +79,8 @@ void touch_floor(const PlaneBox& a, double margin, PlaneManifold& out) {
   out.face_of_a = false;
   out.count = 0;
   const double reach = std::abs(a.sine) * a.half_along + std::abs(a.cosine) * a.half_up;
-  if (a.place.z - reach > margin) return;
+  out.parted = a.place.z - reach;
+  if (out.parted > margin) return;
   // Of the two ends of each axis the lower one; the third corner is the lower of the two that are left.
   const unsigned lowest = (a.sine < 0.0 ? 0U : 1U) + (a.cosine > 0.0 ? 0U : 2U);
   const bool along = std::abs(a.sine) * a.half_along < std::abs(a.cosine) * a.half_up;

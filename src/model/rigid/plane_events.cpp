@@ -72,7 +72,8 @@ void PlaneFront::note_struck(double now) {
 }
 
 void PlaneFront::note_landed(double now) {
-  for (const PlaneTouch& touch : touches_) {
+  for (const int pair : near_pairs_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
     if (touch.b >= 0) continue;
     PlaneBrick& brick = bricks_[static_cast<std::size_t>(touch.a)];
     if (brick.landed) continue;

@@ -16,6 +16,9 @@ constexpr double kInPlane = 1e-7;
 // A brick is borne by another one where the normal of their contact points up by more than this.
 constexpr double kLeans = 0.1;
 
+// What rests goes on to lean on what moves, so it may rest after this share of the time that others have to wait.
+constexpr double kPatience = 0.5;
+
 // How far the farthest corner has moved [m].
 double displacement(const PlaneBrick& brick, const PlaneVec& from) {
   const PlaneVec moved = brick.box.place - from;
@@ -145,6 +148,7 @@ void PlaneFront::mark_borne_by(int place) {
     for (PlaneMemory& memory : touch.memory) memory = {.active = true};
     touch.mark = woken.box.place;
   }
+  find_near_pairs();
 }
 
 void PlaneFront::list_neighbours(int place) {
@@ -278,6 +282,7 @@ void PlaneFront::order() {
       std::rotate(begin + static_cast<std::ptrdiff_t>(at), begin + static_cast<std::ptrdiff_t>(i),
                   begin + static_cast<std::ptrdiff_t>(i) + 1);
   }
+  find_near_pairs();
 }
 
 void PlaneFront::wake_unsupported(double now) {
@@ -321,7 +326,7 @@ void PlaneFront::retire(double time) {
     const double gain = corner(brick.velocity - brick.velocity_before) / world_.step;
     const double ahead = horizon * (corner(brick.velocity) + 0.5 * horizon * gain);
     brick.quiet = ahead < limits.retire * brick.thin && !brick.pushed ? brick.quiet + world_.step : 0.0;
-    if (brick.quiet < limits.patience * brick.time_scale) continue;
+    if (brick.quiet < kPatience * limits.patience * brick.time_scale) continue;
     rested_ = true;
     brick.moving = false;
     brick.just_rested = true;

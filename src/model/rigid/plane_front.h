@@ -40,6 +40,8 @@ struct PlaneBrick {
   int unknown = -1;  ///< Its place in the system of equations.
   bool moving = false;
   bool pushed = false;
+  double path = 0.0;       ///< No corner has gone farther than this, all drifts together [m]...
+  double next_path = 0.0;  ///< ...with the one that is tried.
   bool landed = false;
   bool just_rested = false;
 };
@@ -60,6 +62,7 @@ struct PlaneTouch {
   double friction = 0.0;
   double restitution = 0.0;
   PlaneManifold now, next;
+  double apart_until = 0.0;  ///< It has no points before the paths of both bricks together are as long as this [m].
   std::array<PlaneMemory, 2> memory;
   double impulse = 0.0;  ///< Sum of the normal impulses of the last solution [N s].
   double load = 0.0;     ///< The force that they are [N].
@@ -114,7 +117,7 @@ class PlaneFront final : public Wave {
     PointState state;
   };
   using Pattern = std::vector<PatternPoint>;
-  void recall(const Pattern& pattern, int head);
+  void recall(const Pattern& pattern, int head, int most = 1 << 20);
   void keep(Pattern& pattern, int head) const;
   bool closes_fast() const;
   void plan(double time, Pattern* pattern = nullptr);
@@ -125,6 +128,10 @@ class PlaneFront final : public Wave {
   void set_bias(double time);
   void remember_impulses(double time, PointState PlaneMemory::* states);
   void try_drift(double time);
+  static double way_to(const PlaneBrick& brick, const PlaneBox& box);
+  void test_next(PlaneTouch& touch, const PlaneBox& a, const PlaneBox& b) const;
+  static void accept(PlaneTouch& touch);
+  void find_near_pairs();
   double first_impact(double time);
   double impact_of(const PlaneTouch& touch, double time) const;
   double distance_at(const PlaneTouch& touch, double time, double whole) const;
@@ -153,6 +160,7 @@ class PlaneFront final : public Wave {
   bool rested_ = false;       // Some brick came to rest since the lists were made.
   std::vector<PlaneBrick> bricks_, spare_;
   std::vector<PlaneTouch> touches_;
+  std::vector<int> near_pairs_;  // Those that have points, or may have some at the end of the drift that is tried.
   std::vector<PlaneRow> rows_, compression_;
   std::vector<PlaneUnknown> unknowns_, before_blow_;
   struct Force {

@@ -15,17 +15,50 @@ PlaneBox PlaneFront::box_at(const PlaneBrick& brick, double time, double whole) 
   return box;
 }
 
+// How far no corner has gone beyond, from where the brick is to `box` [m].
+double PlaneFront::way_to(const PlaneBrick& brick, const PlaneBox& box) {
+  const PlaneVec moved = box.place - brick.box.place;
+  return std::abs(moved.x) + std::abs(moved.z) + brick.radius * std::abs(moved.turn);
+}
+
+// Points at the end of the drift. Pairs that are farther apart than their bricks can have gone since they were tested are not.
 void PlaneFront::try_drift(double time) {
-  for (PlaneBrick& brick : bricks_) brick.next = box_at(brick, time, time);
-  for (PlaneTouch& touch : touches_) {
+  for (PlaneBrick& brick : bricks_) {
+    brick.next = box_at(brick, time, time);
+    brick.next_path = brick.path + (brick.moving ? way_to(brick, brick.next) : 0.0);
+  }
+  near_pairs_.clear();
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    PlaneTouch& touch = touches_[i];
     const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
-    touch.next.axis = touch.now.axis;
-    if (touch.b < 0) {
-      touch_floor(a.next, world_.tolerances.margin * a.thin, touch.next);
+    const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b < 0 ? touch.a : touch.b)];
+    const double path = touch.b < 0 ? a.path : a.path + b.path;
+    const double next_path = touch.b < 0 ? a.next_path : a.next_path + b.next_path;
+    if (touch.now.count == 0 && next_path < touch.apart_until) {
+      touch.next.count = 0;
       continue;
     }
-    const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];
-    touch_boxes(a.next, b.next, world_.tolerances.margin * touch.thin, touch.next);
+    test_next(touch, a.next, b.next);
+    // The place that was tested may not be the one where the drift ends: there and back again.
+    if (touch.next.count == 0) touch.apart_until = 2.0 * path - next_path + touch.next.parted - world_.tolerances.margin * touch.thin;
+    if (touch.now.count + touch.next.count > 0) near_pairs_.push_back(static_cast<int>(i));
+  }
+}
+
+void PlaneFront::test_next(PlaneTouch& touch, const PlaneBox& a, const PlaneBox& b) const {
+  const double margin = world_.tolerances.margin * touch.thin;
+  touch.next.axis = touch.now.axis;
+  if (touch.b < 0) {
+    touch_floor(a, margin, touch.next);
+  } else {
+    touch_boxes(a, b, margin, touch.next);
+  }
+}
+
+void PlaneFront::find_near_pairs() {
+  near_pairs_.clear();
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    if (touches_[i].now.count + touches_[i].next.count > 0) near_pairs_.push_back(static_cast<int>(i));
   }
 }
 
@@ -55,7 +88,8 @@ double new_distance(const PlaneTouch& touch, const PlaneManifold& manifold) {
 // When the first new point touches [s]; `time` if none does before.
 double PlaneFront::first_impact(double time) {
   double first = time;
-  for (const PlaneTouch& touch : touches_) {
+  for (const int pair : near_pairs_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
     if (touch.next.count == 0) continue;
     const double near = world_.tolerances.touching * touch.thin;
     if (new_distance(touch, touch.next) > -near) continue;
@@ -113,39 +147,52 @@ void PlaneFront::accept_drift(double cut, double whole) {
   for (const Force& force : forces_) work -= force.along * work_place(force);
   for (PlaneBrick& brick : bricks_) {
     if (!brick.moving) continue;
-    brick.box = cut < whole ? box_at(brick, cut, whole) : brick.next;
+    if (cut < whole) {
+      const PlaneBox box = box_at(brick, cut, whole);
+      brick.next_path = brick.path + way_to(brick, box);
+      brick.box = box;
+    } else {
+      brick.box = brick.next;
+    }
+    brick.path = brick.next_path;
     brick.before_drift = brick.velocity;
     brick.velocity = brick.velocity + (2.0 * cut / whole) * (brick.middle - brick.velocity);
   }
   for (const Force& force : forces_) work += force.along * work_place(force);
   ledger_.push_work += work;
-  for (PlaneTouch& touch : touches_) {
+  for (const int pair : near_pairs_) {
+    PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
     if (cut < whole) {
-      const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
-      touch.next.axis = touch.now.axis;
-      if (touch.b < 0) {
-        touch_floor(a.box, world_.tolerances.margin * a.thin, touch.next);
-      } else {
-        touch_boxes(a.box, bricks_[static_cast<std::size_t>(touch.b)].box, world_.tolerances.margin * touch.thin, touch.next);
-      }
+      test_next(touch, bricks_[static_cast<std::size_t>(touch.a)].box, bricks_[static_cast<std::size_t>(std::max(touch.b, 0))].box);
     }
+    accept(touch);
+  }
+}
+
+void PlaneFront::accept(PlaneTouch& touch) {
+  bool same = touch.now.count == touch.next.count;
+  for (std::size_t k = 0; k < 2; ++k) {
+    same = same && (static_cast<int>(k) >= touch.now.count || touch.now.points[k].feature == touch.next.points[k].feature);
+  }
+  if (!same) {
     std::array<PlaneMemory, 2> memory;
     for (int k = 0; k < touch.next.count; ++k) {
       for (int j = 0; j < touch.now.count; ++j) {
         if (touch.now.points[static_cast<std::size_t>(j)].feature != touch.next.points[static_cast<std::size_t>(k)].feature) continue;
         memory[static_cast<std::size_t>(k)] = touch.memory[static_cast<std::size_t>(j)];
       }
-      memory[static_cast<std::size_t>(k)].fresh = false;
     }
     touch.memory = memory;
-    touch.now = touch.next;
   }
+  for (PlaneMemory& memory : touch.memory) memory.fresh = false;
+  touch.now = touch.next;
 }
 
 // Points that have come to touch take part from now on. Returns whether there are any.
 bool PlaneFront::activate_new_points() {
   bool any = false;
-  for (PlaneTouch& touch : touches_) {
+  for (const int pair : near_pairs_) {
+    PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
     const double near = world_.tolerances.touching * touch.thin;
     for (int k = 0; k < touch.now.count; ++k) {
       PlaneMemory& memory = touch.memory[static_cast<std::size_t>(k)];
@@ -163,7 +210,8 @@ bool PlaneFront::activate_new_points() {
 // Whether a point that has begun to touch closes so fast that it deserves a blow; a slower one is stopped by the next kick.
 bool PlaneFront::closes_fast() const {
   const double slow = 0.5 * world_.gravity * world_.step;
-  for (const PlaneTouch& touch : touches_) {
+  for (const int pair : near_pairs_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
     for (int k = 0; k < touch.now.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       if (!touch.memory[at].fresh) continue;
@@ -188,7 +236,7 @@ void PlaneFront::take_blow(double whole, double next) {
     if (brick.moving) brick.acceleration = (2.0 / whole) * (brick.middle - brick.before_drift);
   }
   plan(next, struck_now_.empty() ? nullptr : &strike_);
-  for (PlaneTouch& touch : touches_) touch.load = 0.0;
+  for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].load = 0.0;
   if (bounced) return;
   for (PlaneBrick& brick : bricks_) {
     if (brick.moving) brick.velocity = brick.middle - (0.5 * next) * brick.acceleration;
@@ -198,8 +246,10 @@ void PlaneFront::take_blow(double whole, double next) {
 // A blow by itself, `always` or only if something bounces; whether there was one. Restitution is Poisson's [Glocker1995]: every point gives
 // back a share of the impulse that it took, and only where a bounce lasts longer than a step; a slower hit keeps the points together.
 bool PlaneFront::blow(bool always) {
-  const bool may_bounce =
-      std::any_of(touches_.begin(), touches_.end(), [](const PlaneTouch& touch) { return touch.restitution > 0.0 && touch.now.count > 0; });
+  const bool may_bounce = std::any_of(near_pairs_.begin(), near_pairs_.end(), [this](int pair) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
+    return touch.restitution > 0.0 && touch.now.count > 0;
+  });
   if (!may_bounce && !always) return false;
   make_rows(&PlaneMemory::blow);
   for (const PlaneBrick& brick : bricks_) {
@@ -286,7 +336,8 @@ bool PlaneFront::is_hit(const PlaneTouch& touch, const PlaneBrick& still) const 
 void PlaneFront::wake_struck(double now) {
   for (bool again = true; again;) {
     again = false;
-    for (const PlaneTouch& touch : touches_) {
+    for (const int pair : near_pairs_) {
+      const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
       if (touch.b < 0 || touch.now.count == 0) continue;
       const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
       const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];

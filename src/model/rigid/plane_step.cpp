@@ -19,6 +19,9 @@ namespace {
 // gap 7.5 and 16.5 mm: with less, states of friction settle later; with more, fallen bricks creep and rest later.
 constexpr double kCompliance = 1e-4;
 
+// So many bricks behind the one that was struck do the same after every strike; those farther back go by what each did before.
+constexpr int kLedByHead = 2;
+
 constexpr int kFloorOf = 1 << 20;  // In a pattern: the floor.
 
 double response(const PlaneBrick& brick, const Column<3>& j) {
@@ -89,8 +92,8 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
     brick.unknown = brick.moving ? static_cast<int>(unknowns_.size()) : -1;
     if (brick.moving) unknowns_.push_back({brick.mass, brick.inertia, {}, {}});
   }
-  for (std::size_t i = 0; i < touches_.size(); ++i) {
-    const PlaneTouch& touch = touches_[i];
+  for (const int pair : near_pairs_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
     const double nx = touch.now.normal_x, nz = touch.now.normal_z;
     for (int k = 0; k < touch.now.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
@@ -98,7 +101,7 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
       if (!memory.active) continue;
       const PlanePoint& point = touch.now.points[at];
       PlaneRow row;
-      row.touch = static_cast<int>(i);
+      row.touch = pair;
       row.point = k;
       double normal = 0.0, tangent = 0.0;
       const auto couple = [&](int place, double side, int& unknown, Column<3>& n, Column<3>& t) {
@@ -188,7 +191,11 @@ void PlaneFront::kick(std::span<PlaneUnknown> unknowns, double time) const {
 void PlaneFront::plan(double time, Pattern* pattern) {
   make_rows(&PlaneMemory::kick);
   const int head = pattern == nullptr ? 0 : place_of(struck_now_.back().brick);
-  if (pattern != nullptr) recall(*pattern, head);
+  if (pattern != nullptr) {
+    recall(*pattern, head);
+    last_struck_ = struck_now_.back().brick;
+    since_strike_ = 0;
+  }
   set_bias(time);
   for (const PlaneBrick& brick : bricks_) {
     if (!brick.moving) continue;
@@ -202,18 +209,20 @@ void PlaneFront::plan(double time, Pattern* pattern) {
   }
   planned_for_ = time;
   if (pattern != nullptr) keep(*pattern, head);
-  remember_impulses(0.5 * time, &PlaneMemory::kick);
+  // What the points do while a blow acts is not what they will do in the next kick.
+  remember_impulses(0.5 * time, pattern == nullptr ? &PlaneMemory::kick : &PlaneMemory::blow);
 }
 
 // Along a row each brick is struck as the one before it was: the states of the contacts, counted from the brick that is struck, are the
 // guess for the next time.
-void PlaneFront::recall(const Pattern& pattern, int head) {
+void PlaneFront::recall(const Pattern& pattern, int head, int most) {
   std::size_t next = 0;
   for (std::size_t i = rows_.size(); i-- > 0;) {
     PlaneRow& row = rows_[i];
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
     const int a = head - touch.a, b = touch.b < 0 ? kFloorOf : head - touch.b;
     const std::uint8_t feature = touch.now.points[static_cast<std::size_t>(row.point)].feature;
+    if (std::min(a, b) > most) break;
     // Both go in the same order.
     const auto comes_before = [a, b](const PatternPoint& point) {
       const int nearer = std::min(point.a, point.b), farther = std::max(point.a, point.b);
@@ -240,6 +249,9 @@ void PlaneFront::keep(Pattern& pattern, int head) const {
 void PlaneFront::leap(double time) {
   const double next = world_.step;
   make_rows(&PlaneMemory::kick);
+  const int head = place_of(last_struck_);
+  Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;
+  if (pattern != nullptr) recall(*pattern, head, kLedByHead);
   set_bias(next);
   for (const PlaneBrick& brick : bricks_) {
     if (!brick.moving) continue;
@@ -255,6 +267,7 @@ void PlaneFront::leap(double time) {
     brick.velocity = brick.middle + share * (after - brick.middle);
     brick.middle = after;
   }
+  if (pattern != nullptr) keep(*pattern, head);
   remember_impulses(0.5 * (time + next), &PlaneMemory::kick);
   planned_for_ = next;
 }
@@ -262,12 +275,13 @@ void PlaneFront::leap(double time) {
 // Keeps what the points carry and do; one that parts has to come back to touch again.
 void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states) {
   const double slow = 0.5 * world_.gravity * world_.step;
-  for (PlaneTouch& touch : touches_) touch.impulse = 0.0;
+  for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].impulse = 0.0;
   for (const PlaneRow& row : rows_) {
     PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
     PlaneMemory& memory = touch.memory[static_cast<std::size_t>(row.point)];
     touch.impulse += row.normal;
     memory.*states = row.state;
+    if (memory.fresh) memory.kick = row.state;
     memory.normal = time > 0.0 ? row.normal / time : 0.0;
     memory.tangent = time > 0.0 ? row.tangent / time : 0.0;
     if (row.state.pressed) continue;
@@ -275,7 +289,10 @@ void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states
     if (row.b >= 0) parting += product_of(row.normal_b, unknowns_[static_cast<std::size_t>(row.b)].velocity);
     if (parting > slow) memory.active = false;
   }
-  for (PlaneTouch& touch : touches_) touch.load = time > 0.0 ? touch.impulse / time : 0.0;
+  for (const int pair : near_pairs_) {
+    PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
+    touch.load = time > 0.0 ? touch.impulse / time : 0.0;
+  }
 }
 
 }  // namespace topple::rigid
