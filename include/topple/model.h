@@ -54,6 +54,7 @@ struct Frame {
   std::vector<FreeMotion> free;
   std::vector<Kink> kinks;  ///< In the order of their times for each brick.
   Energy energy;
+  bool energy_wanted = true;  ///< Set by the reader: where it is false a model may leave `energy` as it was.
 };
 
 enum class EventKind : std::uint8_t {

@@ -190,33 +190,32 @@ std::optional<HingedKnot> last_hinged_knot(const std::uint8_t* code) {
 }
 
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
-  hinged.clear();
-  free.clear();
   const std::size_t count = get(code);
   const auto way = static_cast<Way>(*code++);
+  const std::size_t before = way == Way::free || way == Way::free_rounded ? free.size() : hinged.size();
   if (way == Way::free) {
-    free.resize(count);
-    std::memcpy(free.data(), code, count * sizeof(FreeKnot));
+    free.resize(before + count);
+    std::memcpy(free.data() + before, code, count * sizeof(FreeKnot));
     return;
   }
   if (way == Way::free_rounded) {
-    free.resize(count);
+    free.resize(before + count);
     WholeFree whole;
-    for (FreeKnot& knot : free) {
+    for (FreeKnot& knot : std::span(free).subspan(before)) {
       const WholeFree last = whole;
       for (const std::size_t i : kOrder) whole.part[i] = expected(last, whole, i) + get_signed(code);
       knot = to_knot(whole);
     }
     return;
   }
-  hinged.resize(count);
+  hinged.resize(before + count);
   if (way == Way::floats) {
-    std::memcpy(hinged.data(), code, count * sizeof(HingedKnot));
+    std::memcpy(hinged.data() + before, code, count * sizeof(HingedKnot));
     return;
   }
   code += sizeof(HingedKnot);
   Whole whole;
-  for (HingedKnot& knot : hinged) {
+  for (HingedKnot& knot : std::span(hinged).subspan(before)) {
     const Whole last = whole;
     whole.time += static_cast<std::int32_t>(get(code));
     whole.acceleration += get_signed(code);

@@ -42,6 +42,8 @@ struct Recorder::Open {
   double time_step = 0.0;
   std::int64_t step = 0;
   std::int64_t energy_stride = 1;
+  std::int64_t next_energy = 1;    // The next step of which the energy is kept.
+  std::int64_t next_hash = 1;      // The same for the hash.
   std::vector<std::int32_t> slot;  // Of each brick, its place in `fits`, or kClosed.
   std::vector<HingedFit> fits;
   std::vector<std::int32_t> unused;  // Places in `fits`.
@@ -141,27 +143,28 @@ void Recorder::Open::close(HingedFit& fit, bool still) {
 
 // Every stride-th step; when there are too many, every second one goes.
 void Recorder::Open::take_energy(std::int64_t step_count) {
-  if (step_count % energy_stride != 0) return;
+  if (!frame.energy_wanted) return;
   std::vector<EnergySample>& samples = store.energy;
   if (samples.size() == kMostEnergySamples) {
     for (std::size_t i = 1; i < samples.size(); i += 2) samples[i / 2] = samples[i];
     samples.resize(samples.size() / 2);
     energy_stride *= 2;
-    if (step_count % energy_stride != 0) return;
   }
-  samples.push_back({frame.time, frame.energy});
+  next_energy = (step_count / energy_stride + 1) * energy_stride;
+  if (step_count % energy_stride == 0) samples.push_back({frame.time, frame.energy});
 }
 
 void Recorder::Open::take_hash(const Model& model) {
+  const std::int64_t step_count = model.step_count();
+  if (step_count < next_hash) return;
   HashTrail& trail = store.hashes;
-  if (model.step_count() % trail.stride != 0) return;
   if (trail.values.size() == kMostHashes) {
     for (std::size_t i = 1; i < trail.values.size(); i += 2) trail.values[i / 2] = trail.values[i];
     trail.values.resize(trail.values.size() / 2);
     trail.stride *= 2;
-    if (model.step_count() % trail.stride != 0) return;
   }
-  trail.values.push_back(model.hash());
+  next_hash = (step_count / trail.stride + 1) * trail.stride;
+  if (step_count % trail.stride == 0) trail.values.push_back(model.hash());
 }
 
 Recorder::Recorder(Recording& recording, const RecorderConfig& config)
@@ -173,6 +176,7 @@ Recorder::~Recorder() = default;
 
 void Recorder::take(const Model& model) {
   Open& open = *open_;
+  open.frame.energy_wanted = model.step_count() >= open.next_energy;
   model.read(open.frame);
   open.time_step = model.time_step();
   ++open.step;

@@ -38,7 +38,15 @@ void TrackStore::read(std::size_t index, Track& out) const {
   const Piece& piece = pieces_[index];
   out.brick = piece.brick;
   out.start = piece.start;
+  out.hinged.clear();
+  out.free.clear();
   decode(piece.code, out.hinged, out.free);
+}
+
+TrackStore::Count TrackStore::read(std::int32_t index, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) const {
+  const Count before{hinged.size(), free.size()};
+  decode(pieces_[static_cast<std::size_t>(index)].code, hinged, free);
+  return {hinged.size() - before.hinged, free.size() - before.free};
 }
 
 std::size_t TrackStore::bytes() const { return pieces_.bytes() + codes_.bytes() + last_.capacity() * sizeof(last_[0]); }

@@ -18,8 +18,15 @@ class TrackStore {
 
   std::size_t size() const { return pieces_.size(); }
   Track track(std::size_t index) const;
-  void read(std::size_t index, Track& out) const;                 ///< The same into buffers that are there already.
+  void read(std::size_t index, Track& out) const;  ///< The same into buffers that are there already.
+  /// Appends its knots to one of the two, and says how many.
+  struct Count {
+    std::size_t hinged = 0;
+    std::size_t free = 0;
+  };
+  Count read(std::int32_t index, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) const;
   std::optional<HingedKnot> last_knot(std::int32_t index) const;  ///< Of a hinged piece.
+  BrickId brick_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].brick; }
   double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
 
   /// The last piece of a brick, and the piece of the same brick before this one; kNone if there is none.

@@ -37,8 +37,14 @@ std::uint32_t code_of(BrickId brick) { return brick == kNoBrick ? format::kNoBri
 // One array: `value` of every item, from a multiple of 8 on.
 template <typename Items, typename Value>
 void column(Sink& sink, const Items& items, Value value) {
+  using Number = decltype(value(*items.begin()));
   sink.align();
-  for (const auto& item : items) sink.put(value(item));
+  std::uint8_t* next = sink.room(items.size() * sizeof(Number));
+  for (const auto& item : items) {
+    const Number number = value(item);
+    std::memcpy(next, &number, sizeof number);
+    next += sizeof number;
+  }
 }
 
 void write_recipe(Sink& sink, const Layout& layout, const Recipe& recipe) {
@@ -130,42 +136,43 @@ void write_bricks(Sink& sink, std::size_t first, std::span<const Brick> bricks) 
   sink.end();
 }
 
-template <typename Knots>
-void write_track_heads(Sink& sink, std::span<const Track> tracks, Knots knots_of) {
-  std::size_t knots = 0;
-  for (const Track& track : tracks) knots += knots_of(track).size();
-  sink.put(static_cast<std::uint32_t>(tracks.size()));
-  sink.put(static_cast<std::uint32_t>(knots));
-  column(sink, tracks, [](const Track& t) { return t.start; });
-  column(sink, tracks, [](const Track& t) { return static_cast<std::uint32_t>(t.brick); });
-  column(sink, tracks, [&](const Track& t) { return static_cast<std::uint32_t>(knots_of(t).size()); });
+/// Tracks of one sort, one after the other.
+template <typename Knot>
+struct Tracks {
+  struct Head {
+    double start;
+    BrickId brick;
+    std::size_t knots;
+  };
+  std::vector<Head> heads;
+  std::vector<Knot> knots;
+};
+
+template <typename Knot>
+void write_track_heads(Sink& sink, const Tracks<Knot>& tracks) {
+  using Head = typename Tracks<Knot>::Head;
+  sink.put(static_cast<std::uint32_t>(tracks.heads.size()));
+  sink.put(static_cast<std::uint32_t>(tracks.knots.size()));
+  column(sink, tracks.heads, [](const Head& head) { return head.start; });
+  column(sink, tracks.heads, [](const Head& head) { return static_cast<std::uint32_t>(head.brick); });
+  column(sink, tracks.heads, [](const Head& head) { return static_cast<std::uint32_t>(head.knots); });
 }
 
-template <typename Knot, typename Knots>
-void knot_column(Sink& sink, std::span<const Track> tracks, Knots knots_of, float Knot::* number) {
-  sink.align();
-  for (const Track& track : tracks) {
-    for (const Knot& knot : knots_of(track)) sink.put(knot.*number);
-  }
-}
-
-void write_hinged(Sink& sink, std::span<const Track> tracks) {
-  const auto knots_of = [](const Track& t) { return std::span(t.hinged); };
+void write_hinged(Sink& sink, const Tracks<HingedKnot>& tracks) {
   sink.begin(format::kHinged);
-  write_track_heads(sink, tracks, knots_of);
+  write_track_heads(sink, tracks);
   for (const auto number : {&HingedKnot::time, &HingedKnot::angle, &HingedKnot::rate, &HingedKnot::acceleration}) {
-    knot_column<HingedKnot>(sink, tracks, knots_of, number);
+    column(sink, tracks.knots, [number](const HingedKnot& knot) { return knot.*number; });
   }
   sink.end();
 }
 
-void write_free(Sink& sink, std::span<const Track> tracks) {
-  const auto knots_of = [](const Track& t) { return std::span(t.free); };
+void write_free(Sink& sink, const Tracks<FreeKnot>& tracks) {
   sink.begin(format::kFree);
-  write_track_heads(sink, tracks, knots_of);
+  write_track_heads(sink, tracks);
   for (const auto number : {&FreeKnot::time, &FreeKnot::x, &FreeKnot::y, &FreeKnot::z, &FreeKnot::qw, &FreeKnot::qx, &FreeKnot::qy,
                             &FreeKnot::qz, &FreeKnot::vx, &FreeKnot::vy, &FreeKnot::vz, &FreeKnot::wx, &FreeKnot::wy, &FreeKnot::wz}) {
-    knot_column<FreeKnot>(sink, tracks, knots_of, number);
+    column(sink, tracks.knots, [number](const FreeKnot& knot) { return knot.*number; });
   }
   sink.end();
 }
@@ -225,8 +232,8 @@ std::vector<std::uint8_t> RecordingWriter::begin() {
   const Layout& layout = store_->layout;
   std::vector<std::uint8_t> bytes;
   bytes.reserve(layout.bricks.size() * 38 + layout.text.size() + 4096);
-  bytes.insert(bytes.end(), format::kMagic.begin(), format::kMagic.end());
   Sink sink(bytes);
+  std::memcpy(sink.room(format::kMagic.size()), format::kMagic.data(), format::kMagic.size());
   write_recipe(sink, layout, store_->recipe);
   write_scene(sink, layout, store_->tolerance);
   write_shapes(sink, layout);
@@ -240,15 +247,18 @@ std::vector<std::uint8_t> RecordingWriter::begin() {
 std::vector<std::uint8_t> RecordingWriter::more() {
   std::vector<std::uint8_t> bytes;
   Sink sink(bytes);
-  std::vector<Track> hinged;
-  std::vector<Track> free;
-  const auto tracks = static_cast<std::int64_t>(store_->tracks.size());
+  Tracks<HingedKnot> hinged;
+  Tracks<FreeKnot> free;
+  const TrackStore& store = store_->tracks;
+  const auto tracks = static_cast<std::int64_t>(store.size());
   for (const std::int64_t last = std::min(tracks, tracks_ + kTracksAtOnce); tracks_ < last; ++tracks_) {
-    Track track = store_->tracks.track(static_cast<std::size_t>(tracks_));
-    (track.free.empty() ? hinged : free).push_back(std::move(track));
+    const auto index = static_cast<std::int32_t>(tracks_);
+    const TrackStore::Count count = store.read(index, hinged.knots, free.knots);
+    if (count.hinged > 0) hinged.heads.push_back({store.start_of(index), store.brick_of(index), count.hinged});
+    if (count.free > 0) free.heads.push_back({store.start_of(index), store.brick_of(index), count.free});
   }
-  if (!hinged.empty()) write_hinged(sink, hinged);
-  if (!free.empty()) write_free(sink, free);
+  if (!hinged.heads.empty()) write_hinged(sink, hinged);
+  if (!free.heads.empty()) write_free(sink, free);
 
   std::vector<EventStore::Entry> events;
   const auto all = static_cast<std::int64_t>(store_->events.size());

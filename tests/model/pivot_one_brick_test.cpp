@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/pivot/fall.h"
+#include "model/pivot/lean.h"
 #include "model/rows.h"
 #include "topple/run.h"
 
@@ -20,6 +21,13 @@ Layout one_brick(double mass, double force, double duration) {
   layout.gravity = 9.82;
   layout.pushes = {{.brick = 0, .at = 0.0, .how = ForcePush{force, 0.04353, duration}}};
   return layout;
+}
+
+TEST_CASE("the_angle_of_a_sine_and_a_cosine_is_that_of_the_c_library") {
+  for (int i = 0; i <= 15707; ++i) {
+    const double angle = 1e-4 * i;
+    REQUIRE(pivot::angle_of({std::sin(angle), std::cos(angle)}) == doctest::Approx(angle).epsilon(1e-15));
+  }
 }
 
 TEST_CASE("half_a_newton_topples_the_brick") {

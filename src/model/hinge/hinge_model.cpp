@@ -1,7 +1,6 @@
 #include "model/hinge/hinge_model.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -39,13 +38,6 @@ class HingeModel final : public Model {
   Hash hash_;
 };
 
-// Of id, angle and rate, mixed before they are chained: the multiplications of many bricks then go on side by side.
-std::uint64_t word_of(const HingedMotion& motion) {
-  const std::uint64_t angle = std::bit_cast<std::uint64_t>(motion.state.angle) * 0xBF58476D1CE4E5B9ULL;
-  const std::uint64_t rate = std::bit_cast<std::uint64_t>(motion.state.rate) * 0x94D049BB133111EBULL;
-  return (angle ^ (angle >> 31)) + std::rotl(rate ^ (rate >> 29), 23) + static_cast<std::uint64_t>(motion.brick) * 0x9E3779B97F4A7C15ULL;
-}
-
 Status HingeModel::step() {
   const double until = static_cast<double>(++step_count_) * time_step_;
   now_.clear();
@@ -63,7 +55,8 @@ Status HingeModel::step() {
   }
   moved_.assign(now_.stopped.begin(), now_.stopped.end());
   for (const Chain& chain : chains_) chain.read(moved_);
-  for (const HingedMotion& motion : moved_) hash_.add(word_of(motion));
+  for (const HingedMotion& motion : moved_)
+    hash_.add(mixed(static_cast<std::uint64_t>(motion.brick), motion.state.angle, motion.state.rate));
   return {running ? Progress::running : Progress::at_rest, kNoBrick};
 }
 

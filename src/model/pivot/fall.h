@@ -29,7 +29,7 @@ struct Fall {
   double omega = 0.0;  ///< [rad/s]
   SinCos turned;       ///< Of theta.
 };
-inline Fall fall_at(double time, double theta, double omega) { return {time, theta, omega, sin_cos(theta)}; }
+inline Fall fall_at(double time, double theta, double omega) { return {time, theta, omega, sin_cos_of_fall(theta)}; }
 
 /// Moment of inertia about the edge it turns on, or as the report prints it, about the centre of mass [kg m^2].
 double moment_of_inertia(const Extents& size, double mass, InertiaRule rule);

@@ -58,7 +58,8 @@ void PivotModel::push(BrickId brick, std::size_t index, double time) {
 
 void PivotModel::hand_on_hits() {
   hits_.clear();
-  for (const std::int32_t slot : moving_.order()) {
+  find_watched();
+  for (const std::int32_t slot : watched_) {
     if (moving_[slot].may_hit) find_hit(moving_[slot]);
   }
   // In the order of their times; a struck brick may itself strike before the step is over.

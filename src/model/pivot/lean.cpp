@@ -93,20 +93,21 @@ double Pair::distance(double behind, double ahead) const {
   return separation(b, a);
 }
 
-Bound Pair::bound_on_rear_edge(const Ahead& ahead) const {
+Bound Pair::bound_on_rear_edge(const Fall& ahead) const {
   const SinCos& a = ahead.turned;
   // The front face on the lower rear edge ahead: p cos(theta) = T cos(theta - ahead).
   const double x = pitch_ - thickness_ * a.cos;
   const double z = thickness_ * a.sin;
   const double turn = (thickness_ * a.sin * z - x * thickness_ * a.cos) / (x * x + z * z);
-  return {.theta = arc_tangent(x, z), .rate = ahead.omega * turn, .on_rear_edge = true};
+  const double theta = arc_tangent(x, z);
+  return {.theta = theta, .slope = turn, .turned = sin_cos(theta), .on_rear_edge = true};
 }
 
-Bound Pair::bound_out_of_line(double from, double to, const Ahead& ahead) const {
-  if (to <= from || distance(to, ahead.theta) >= 0.0) return {.theta = std::numeric_limits<double>::infinity(), .rate = 0.0};
-  if (distance(from, ahead.theta) < 0.0) return {.theta = from, .rate = 0.0};
+Bound Pair::bound_out_of_line(double from, double to, const Fall& ahead) const {
+  if (to <= from || distance(to, ahead.theta) >= 0.0) return {.theta = std::numeric_limits<double>::infinity()};
+  if (distance(from, ahead.theta) < 0.0) return {.theta = from, .turned = sin_cos(from)};
   const double theta = falling_root([&](double t) { return distance(t, ahead.theta); }, from, to);
-  return {.theta = theta, .rate = ahead.omega * bound_slope(theta, ahead.theta)};
+  return {.theta = theta, .slope = bound_slope(theta, ahead.theta), .turned = sin_cos(theta)};
 }
 
 double Pair::bound_slope(double behind, double ahead) const {
@@ -120,7 +121,7 @@ double Pair::bound_slope(double behind, double ahead) const {
 std::optional<double> Pair::fall_back_stop(double behind, double from, double to) const {
   const double touching = kTouching * (in_line_ ? thickness_ / height_ : thickness_);
   const auto apart = [&](double ahead) {
-    return (in_line_ ? bound_in_line({ahead, 0.0, sin_cos(ahead)}).theta - behind : distance(behind, ahead)) - touching;
+    return (in_line_ ? bound_in_line(fall_at(0.0, ahead, 0.0)).theta - behind : distance(behind, ahead)) - touching;
   };
   if (apart(to) >= 0.0) return std::nullopt;
   if (apart(from) < 0.0) return from;

@@ -7,6 +7,10 @@ namespace topple::pivot {
 
 namespace {
 
+// A leaning brick rests when, at its rate, it would move its upper edge by less than this fraction of its thickness in the time
+// sqrt(H / g); it wakes when the brick ahead would let it move further than that. Four times finer than what a recording keeps.
+constexpr double kRestTolerance = 5e-4;
+
 std::size_t at(BrickId brick) { return static_cast<std::size_t>(brick); }
 
 }  // namespace
@@ -20,6 +24,7 @@ MovingSet::MovingSet(const Layout& layout, const PivotConfig& config, Lines line
                          .mass = kind.mass,
                          .inertia = moment_of_inertia(size, kind.mass, config.inertia),
                          .settle = std::sqrt(size.up / layout.gravity),
+                         .slack = kRestTolerance * size.along / size.up,
                          .turning = turning(size, kind.mass, layout.gravity, config.inertia)});
     }
   }

@@ -18,6 +18,7 @@ struct Body {
   double mass = 0.0;     ///< [kg]
   double inertia = 0.0;  ///< [kg m^2]
   double settle = 0.0;   ///< sqrt(H / g): the time scale of its fall [s].
+  double slack = 0.0;    ///< What it may still turn when it rests [rad].
   Turning turning;
 };
 
@@ -37,8 +38,6 @@ struct Moving {
   Fall fall;                    ///< Now.
   double acceleration = 0.0;    ///< Now [rad/s^2].
   double report_torque = 0.0;   ///< Of the force that acts on it, with the arm that (2.5) gives it [N m].
-  double kinetic = 0.0;         ///< Energy when it was last looked at [J].
-  double potential = 0.0;       ///< Energy when it was last looked at [J].
   std::int32_t first_push = 0;  ///< The push that began its line.
   std::vector<Kink> kinks;      ///< Its latest, for those that follow it.
   std::vector<Pair> ahead;      ///< One for each brick that it strikes.
@@ -72,12 +71,7 @@ class MovingSet {
     const Moving* moving = find(brick);
     return moving == nullptr ? double{still(brick).tilt} : moving->fall.theta;
   }
-  Ahead as_ahead(BrickId brick) const {  ///< Any brick, for the one behind it.
-    const Moving* moving = find(brick);
-    if (moving != nullptr) return {moving->fall.theta, moving->fall.omega, moving->fall.turned};
-    const double theta = still(brick).tilt;
-    return {theta, 0.0, sin_cos(theta)};
-  }
+  Fall at_rest(BrickId brick) const { return fall_at(0.0, double{still(brick).tilt}, 0.0); }  ///< One that does not move.
   const Lines& lines() const { return lines_; }
 
   Moving& wake(BrickId brick, double time);

@@ -14,15 +14,9 @@ namespace {
 constexpr double kRightAngle = 0.5 * kPi;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// A leaning brick rests when, at its rate, it would move its upper edge by less than this fraction of its thickness in the time
-// sqrt(H / g); it wakes when the brick ahead would let it move further than that. Four times finer than what a recording keeps.
-constexpr double kRestTolerance = 5e-4;
-
 // A brick that leans on one that leans has no motion of its own: its tilt follows from the one ahead and moves nothing, so it is looked
 // at only at every eighth step (and at its kinks), some forty times finer than the fall of a brick.
 constexpr std::int64_t kFollowStride = 8;
-
-double rest_angle(const Body& body) { return kRestTolerance * body.size.along / body.size.up; }
 
 }  // namespace
 
@@ -63,27 +57,37 @@ inline double PivotModel::potential(const Body& body, const SinCos& turned) cons
   return body.mass * layout_.gravity * rise;
 }
 
+// A brick that follows may still have one ahead of it that it has not struck.
+void PivotModel::find_watched() {
+  if (!watch_anew_) return;
+  watch_anew_ = false;
+  watched_.clear();
+  for (const std::int32_t slot : moving_.order()) {
+    if (!moving_[slot].follows || moving_[slot].may_hit) watched_.push_back(slot);
+  }
+}
+
 void PivotModel::turn_bricks() {
   const bool look_at_all = step_count_ % kFollowStride == 0;
+  find_watched();
+  const std::vector<std::int32_t>& slots = look_at_all ? moving_.order() : watched_;
   turned_.clear();
-  for (const std::int32_t slot : moving_.order()) {
-    if (!look_at_all && moving_[slot].follows) continue;
+  for (const std::int32_t slot : slots) {
     Moving& moving = moving_[slot];
+    if (!look_at_all && moving.follows) continue;
     if (!fall_freely(moving)) turn(moving);
-    moving.kinetic = 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
-    moving.potential = potential(*moving.body, moving.fall.turned);
     turned_.push_back(slot);
   }
 }
 
-// Whether a brick at `behind` has nothing to do with the one ahead of it, as tightest_bound() sees it.
+// Whether a brick at `behind` has nothing to do with the one ahead of it, as tightest_hold() sees it.
 inline bool PivotModel::out_of_reach(const Pair& pair, const Fall& behind) const {
   if (const Moving* ahead = moving_.find(pair.ahead())) {
     if (ahead->fall.theta == 0.0 && !moving_.still(pair.ahead()).struck) return true;
-    return pair.clear(behind.turned, {ahead->fall.theta, ahead->fall.omega, ahead->fall.turned});
+    return pair.clear(behind.turned, ahead->fall);
   }
   const MovingSet::Still& still = moving_.still(pair.ahead());
-  return (still.tilt == 0.0F && !still.struck) || pair.clear(behind.turned, moving_.as_ahead(pair.ahead()));
+  return (still.tilt == 0.0F && !still.struck) || pair.clear(behind.turned, moving_.at_rest(pair.ahead()));
 }
 
 // What most bricks do in most steps: turn()'s answer for one that gravity alone moves, that nothing stops, and that passes nothing.
@@ -117,9 +121,9 @@ void PivotModel::turn(Moving& moving) {
   if (to.theta <= 0.0 && !(to.theta == 0.0 && to.omega > 0.0)) come_back_to_foot(moving, from, to);
   moving.held_up = to.omega < 0.0 && stop_on_brick_behind(moving, from, to);
   moving.acceleration = moving.turning.acceleration(to.turned, end_);
-  if (const auto [bound, pair] = tightest_hold(moving, to.theta); pair != nullptr && to.theta >= bound.theta) {
-    catch_up(moving, from, to, bound, pair->ahead());
-    lean(moving, from, bound, to.omega);
+  if (const Hold hold = tightest_hold(moving, to.theta); hold.pair != nullptr && to.theta >= hold.bound.theta) {
+    catch_up(moving, from, to, hold);
+    lean(moving, from, hold, to.omega);
     // Known only now: how the bound moves it from the moment of catching up on.
     kinks_.back().after.acceleration = moving.side * moving.acceleration;
   } else {
@@ -164,9 +168,11 @@ inline PivotModel::Hold PivotModel::tightest_hold(const Moving& moving, double t
     const MovingSet::Still& still = moving_.still(pair.ahead());
     // What stands and was not struck yet is not leant on: the hit was looked for already.
     if (!still.struck && (ahead != nullptr ? ahead->fall.theta == 0.0 : still.tilt == 0.0F)) continue;
-    const Ahead now = ahead != nullptr ? Ahead{ahead->fall.theta, ahead->fall.omega, ahead->fall.turned} : moving_.as_ahead(pair.ahead());
-    const Bound bound = pair.bound(moving.fall.theta, to, now);
-    if (tightest.pair == nullptr || bound.theta < tightest.bound.theta) tightest = {bound, &pair};
+    // A brick ahead that moves is not copied: its numbers were written a moment ago.
+    const Bound bound = ahead != nullptr ? pair.bound(moving.fall.theta, to, ahead->fall)
+                                         : pair.bound(moving.fall.theta, to, moving_.at_rest(pair.ahead()));
+    if (tightest.pair != nullptr && bound.theta >= tightest.bound.theta) continue;
+    tightest = {bound, ahead != nullptr ? ahead->fall.omega * bound.slope : 0.0, &pair};
   }
   return tightest;
 }
@@ -178,43 +184,47 @@ bool PivotModel::stay_leaning(Moving& moving) {
   // Alone it would fall so far; it parts from the brick ahead when that one leaves it more room.
   const double theta_alone = from.theta + dt * (from.omega + 0.5 * dt * gravity);
   const double omega_alone = from.omega + dt * gravity;
-  const auto [bound, pair] = tightest_hold(moving, theta_alone);
-  if (pair == nullptr || bound.theta > theta_alone) return false;
-  if (bound.on_rear_edge != moving.on_rear_edge) {
-    slip_over_edge(moving, bound);
+  const Hold hold = tightest_hold(moving, theta_alone);
+  if (hold.pair == nullptr || hold.bound.theta > theta_alone) return false;
+  if (hold.bound.on_rear_edge != moving.on_rear_edge) {
+    slip_over_edge(moving, hold);
   } else {
-    follow_kinks(moving, *pair);
+    follow_kinks(moving, *hold.pair);
   }
-  if (bound.theta >= kArrivalTilt && !moving_.still(moving.brick).arrived) note_arrival(moving, from, bound.theta);
-  lean(moving, from, bound, omega_alone);
+  if (hold.bound.theta >= kArrivalTilt && !moving_.still(moving.brick).arrived) note_arrival(moving, from, hold.bound.theta);
+  lean(moving, from, hold, omega_alone);
   return true;
 }
 
-inline void PivotModel::lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone) {
-  const double omega = std::fmin(bound.rate, omega_alone);
+inline void PivotModel::lean(Moving& moving, const Fall& from, const Hold& hold, double omega_alone) {
+  const double omega = hold.rate < omega_alone ? hold.rate : omega_alone;
   const bool kinked = !moving.kinks.empty() && moving.kinks.back().time >= from.time;
   const double since = end_ - (kinked ? moving.kinks.back().time : from.time);
   const double earlier = kinked ? moving.kinks.back().after.rate : from.omega;
   if (since > 1e-3 * (end_ - from.time)) moving.acceleration = (omega - earlier) / since;
   moving.leaning = true;
-  moving.on_rear_edge = bound.on_rear_edge;
-  moving.fall = fall_at(end_, bound.theta, omega);
+  moving.on_rear_edge = hold.bound.on_rear_edge;
+  moving.fall.time = end_;
+  moving.fall.theta = hold.bound.theta;
+  moving.fall.omega = omega;
+  moving.fall.turned.sin = hold.bound.turned.sin;
+  moving.fall.turned.cos = hold.bound.turned.cos;
 }
 
-void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead) {
+void PivotModel::catch_up(Moving& moving, const Fall& from, const Fall& to, const Hold& hold) {
   // Both move evenly through so short a time, so the gap closes evenly too.
   const double dt = end_ - from.time;
-  const double gap = (bound.theta - bound.rate * dt) - from.theta;
-  const double excess = to.theta - bound.theta;
+  const double gap = (hold.bound.theta - hold.rate * dt) - from.theta;
+  const double excess = to.theta - hold.bound.theta;
   const double share = gap > 0.0 && gap + excess > 0.0 ? gap / (gap + excess) : 0.0;
   const double theta = from.theta + share * (to.theta - from.theta);
   const double time = from.time + share * dt;
   kink(moving, time, {theta, from.omega + share * (to.omega - from.omega), moving.acceleration},
-       {theta, std::fmin(bound.rate, to.omega), 0.0});
+       {theta, std::fmin(hold.rate, to.omega), 0.0});
   MovingSet::Still& still = moving_.still(moving.brick);
   if (still.landed) return;
   still.landed = true;
-  note(EventKind::landed, time, moving.brick, ahead);
+  note(EventKind::landed, time, moving.brick, hold.pair->ahead());
 }
 
 void PivotModel::follow_kinks(Moving& moving, const Pair& pair) {
@@ -222,22 +232,21 @@ void PivotModel::follow_kinks(Moving& moving, const Pair& pair) {
   if (ahead == nullptr || !pair.in_line()) return;
   for (const Kink& k : ahead->kinks) {
     if (k.time < moving.fall.time || k.time >= end_) continue;
-    const SinCos turned = sin_cos(k.after.angle);
-    const Bound before = pair.bound(0.0, kRightAngle, {k.before.angle, k.before.rate, turned});
-    const Bound after = pair.bound(0.0, kRightAngle, {k.after.angle, k.after.rate, turned});
-    kink(moving, k.time, {before.theta, before.rate, moving.acceleration}, {after.theta, after.rate, moving.acceleration});
+    const Bound bound = pair.bound(0.0, kRightAngle, fall_at(k.time, k.after.angle, k.after.rate));
+    kink(moving, k.time, {bound.theta, k.before.rate * bound.slope, moving.acceleration},
+         {bound.theta, k.after.rate * bound.slope, moving.acceleration});
   }
 }
 
-void PivotModel::slip_over_edge(Moving& moving, const Bound& bound) {
+void PivotModel::slip_over_edge(Moving& moving, const Hold& hold) {
   // The bound is continuous where the contact changes, its rate is not: where the tangents from before and after meet.
   const Fall& from = moving.fall;
   const double dt = end_ - from.time;
-  const double change = from.omega - bound.rate;
+  const double change = from.omega - hold.rate;
   if (change == 0.0) return;
-  const double since = std::clamp((bound.theta - bound.rate * dt - from.theta) / change, 0.0, dt);
+  const double since = std::clamp((hold.bound.theta - hold.rate * dt - from.theta) / change, 0.0, dt);
   const double theta = from.theta + since * from.omega;
-  kink(moving, from.time + since, {theta, from.omega, moving.acceleration}, {theta, bound.rate, moving.acceleration});
+  kink(moving, from.time + since, {theta, from.omega, moving.acceleration}, {theta, hold.rate, moving.acceleration});
 }
 
 void PivotModel::land(Moving& moving, const Fall& from, Fall& to) {
@@ -269,9 +278,7 @@ Status PivotModel::check_and_hash() {
   Status status;
   for (const std::int32_t slot : turned_) {
     const Moving& moving = moving_[slot];
-    hash_.add(static_cast<std::uint64_t>(moving.brick));
-    hash_.add(moving.fall.theta);
-    hash_.add(moving.fall.omega);
+    hash_.add(mixed(static_cast<std::uint64_t>(moving.brick), moving.fall.theta, moving.fall.omega));
     if (!std::isfinite(moving.fall.theta + moving.fall.omega)) status = {Progress::not_finite, moving.brick};
   }
   return status;
@@ -289,13 +296,12 @@ bool PivotModel::at_rest(const Moving& moving) const {
   if (moving.fall.theta == 0.0) return moving.fall.omega == 0.0;
   const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
   if (moving.held_up) return moving_.find(behind) == nullptr;
-  if (!moving.leaning) return false;
-  for (const Pair& pair : moving.ahead) {
+  if (!moving.leaning || !(std::fabs(moving.fall.omega) * moving.body->settle < moving.body->slack)) return false;
+  return std::all_of(moving.ahead.begin(), moving.ahead.end(), [this](const Pair& pair) {
     // One that leans on a brick which is still falling has only paused.
     const Moving* ahead = moving_.find(pair.ahead());
-    if (ahead != nullptr && !ahead->leaning && !ahead->held_up) return false;
-  }
-  return std::fabs(moving.fall.omega) * moving.body->settle < rest_angle(*moving.body);
+    return ahead == nullptr || ahead->leaning || ahead->held_up;
+  });
 }
 
 bool PivotModel::follows(const Moving& moving) const {
@@ -311,13 +317,16 @@ bool PivotModel::follows(const Moving& moving) const {
 void PivotModel::rest_bricks() {
   for (const std::int32_t slot : turned_) {
     Moving& moving = moving_[slot];
+    const bool followed = moving.follows;
     if (falls_on(moving)) {
       moving.follows = false;
+      watch_anew_ |= followed;
       continue;
     }
     find_unsupported(moving);
     if (!at_rest(moving)) {
       moving.follows = follows(moving);
+      watch_anew_ |= moving.follows != followed;
       continue;
     }
     moving.fall.omega = 0.0;
@@ -330,7 +339,9 @@ void PivotModel::rest_bricks() {
     still.rested = true;
     moving_.rest(slot);
   }
-  if (!retired_.empty()) moving_.sweep();
+  if (retired_.empty()) return;
+  moving_.sweep();
+  watch_anew_ = true;
 }
 
 void PivotModel::wake_unsupported() {
@@ -343,8 +354,8 @@ void PivotModel::find_unsupported(const Moving& moving) {
     // The brick behind rests on this one, which may have moved on since.
     const BrickId behind = moving_.lines().behind[static_cast<std::size_t>(moving.brick)];
     const double tilt = moving_.tilt(behind);
-    const double slack = rest_angle(moving_.body_of(behind));
-    const Bound bound = moving.behind->bound(tilt, tilt + 2.0 * slack, {moving.fall.theta, moving.fall.omega, moving.fall.turned});
+    const double slack = moving_.body_of(behind).slack;
+    const Bound bound = moving.behind->bound(tilt, tilt + 2.0 * slack, moving.fall);
     if (tilt < kRightAngle && bound.theta > tilt + slack) unsupported_.push_back(behind);
   }
   if (moving.fall.omega >= 0.0) return;
@@ -357,6 +368,7 @@ void PivotModel::find_unsupported(const Moving& moving) {
 
 Moving& PivotModel::wake_or_find(BrickId brick, double time) {
   if (Moving* moving = moving_.find(brick)) return *moving;
+  watch_anew_ = true;
   still_potential_ -= potential(moving_.body_of(brick), sin_cos(moving_.tilt(brick)));
   return moving_.wake(brick, time);
 }
@@ -387,29 +399,33 @@ void PivotModel::read(Frame& out) const {
   out.time = end_;
   out.free.clear();
   out.kinks.assign(kinks_.begin(), kinks_.end());
-  double kinetic = 0.0;
-  double potential = still_potential_;
-  out.hinged.resize(moving_.order().size());
+  out.hinged.resize(turned_.size() + retired_.size());
   // Each number goes straight to its place: a brick that is put together first and copied then waits for its own parts.
   HingedMotion* next = out.hinged.data();
+  for (const std::int32_t slot : turned_) {
+    const Moving& moving = moving_[slot];
+    if (moving.brick == kNoBrick) continue;
+    const double sign = moving.side;
+    next->brick = moving.brick;
+    next->phase = moving.phase;
+    next->state.angle = sign * moving.fall.theta;
+    next->state.rate = sign * moving.fall.omega;
+    next->state.acceleration = sign * moving.acceleration;
+    ++next;
+  }
+  next = std::copy(retired_.begin(), retired_.end(), next);
+  out.hinged.resize(static_cast<std::size_t>(next - out.hinged.data()));
+  if (out.energy_wanted) out.energy = energy();
+}
+
+Energy PivotModel::energy() const {
+  Energy sum{.kinetic = 0.0, .potential = still_potential_, .push_work = push_work_};
   for (const std::int32_t slot : moving_.order()) {
     const Moving& moving = moving_[slot];
-    const Fall& fall = moving.fall;
-    if (fall.time == end_) {
-      const double sign = moving.side;
-      next->brick = moving.brick;
-      next->phase = moving.phase;
-      next->state.angle = sign * fall.theta;
-      next->state.rate = sign * fall.omega;
-      next->state.acceleration = sign * moving.acceleration;
-      ++next;
-    }
-    kinetic += moving.kinetic;
-    potential += moving.potential;
+    sum.kinetic += 0.5 * moving.body->inertia * moving.fall.omega * moving.fall.omega;
+    sum.potential += potential(*moving.body, moving.fall.turned);
   }
-  out.hinged.resize(static_cast<std::size_t>(next - out.hinged.data()));
-  out.hinged.insert(out.hinged.end(), retired_.begin(), retired_.end());
-  out.energy = {.kinetic = kinetic, .potential = potential, .push_work = push_work_};
+  return sum;
 }
 
 }  // namespace topple::pivot

@@ -40,12 +40,14 @@ class PivotModel final : public Model {
   /// The tightest bound on a brick's tilt, and whose; null if nothing holds it.
   struct Hold {
     Bound bound;
+    double rate = 0.0;  ///< Of the bound [rad/s].
     const Pair* pair = nullptr;
   };
 
   // The stages of a step.
   void wake_unsupported();
   void start_pushes();
+  void find_watched();
   void hand_on_hits();
   void turn_bricks();
   Status check_and_hash();
@@ -68,9 +70,9 @@ class PivotModel final : public Model {
   bool stop_on_brick_behind(const Moving& moving, const Fall& from, Fall& to) const;
   Hold tightest_hold(const Moving& moving, double to) const;
   bool stay_leaning(Moving& moving);
-  void lean(Moving& moving, const Fall& from, const Bound& bound, double omega_alone);
-  void catch_up(Moving& moving, const Fall& from, const Fall& to, const Bound& bound, BrickId ahead);
-  void slip_over_edge(Moving& moving, const Bound& bound);
+  void lean(Moving& moving, const Fall& from, const Hold& hold, double omega_alone);
+  void catch_up(Moving& moving, const Fall& from, const Fall& to, const Hold& hold);
+  void slip_over_edge(Moving& moving, const Hold& hold);
   void follow_kinks(Moving& moving, const Pair& pair);
   void land(Moving& moving, const Fall& from, Fall& to);
   void note_arrival(const Moving& moving, const Fall& from, double to);
@@ -82,6 +84,7 @@ class PivotModel final : public Model {
   void kink(Moving& moving, double time, const HingedState& before, const HingedState& after);
   void note(EventKind kind, double time, BrickId brick, BrickId by = kNoBrick);
   HingedState state(const Moving& moving) const;
+  Energy energy() const;
   double potential(const Body& body, const SinCos& turned) const;
 
   const Layout& layout_;
@@ -98,6 +101,9 @@ class PivotModel final : public Model {
   double still_potential_ = 0.0;  ///< Of the bricks that do not move [J].
 
   std::vector<Hit> hits_;
+  /// Slots, in the moving set's order, of the bricks that a step must look at: all but those that follow.
+  std::vector<std::int32_t> watched_;
+  bool watch_anew_ = true;            ///< watched_ is out of date.
   std::vector<std::int32_t> turned_;  ///< Slots of the bricks that were looked at in this step.
   std::vector<Event> events_;
   std::vector<Kink> kinks_;
