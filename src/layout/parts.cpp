@@ -13,6 +13,35 @@ namespace {
 
 constexpr double kSnap = 1e-9;  // of a pitch: 100 pitches are 100 pitches, whatever the last digit says
 
+/// [first, last, "#rrggbb"], bricks counted from 0 within the part.
+std::optional<PaintStroke> stroke_of(const Node& node) {
+  const auto* array = std::get_if<Array>(&node.value);
+  if (!array || array->size() != 3) return std::nullopt;
+  const auto* first = std::get_if<std::int64_t>(&(*array)[0].value);
+  const auto* last = std::get_if<std::int64_t>(&(*array)[1].value);
+  const auto* text = std::get_if<std::string>(&(*array)[2].value);
+  const std::optional<Color> color = text ? color_of(*text) : std::nullopt;
+  if (!first || !last || !color || *first < 0 || *last < *first || *last >= kMaxBricks) return std::nullopt;
+  return PaintStroke{*first, *last, *color};
+}
+
+std::vector<PaintStroke> read_paint(Section& section) {
+  constexpr std::size_t kMostStrokes = 100'000;
+  std::vector<PaintStroke> strokes;
+  const std::span<const Node> entries = section.list("paint", kMostStrokes, "strokes");
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (const auto stroke = stroke_of(entries[i])) {
+      strokes.push_back(*stroke);
+    } else {
+      section.problem_at(
+          "paint", i,
+          "must be [first brick, last brick, \"#rrggbb\"], counted from 0 within the part, the last not before the first; is " +
+              value_text(entries[i]));
+    }
+  }
+  return strokes;
+}
+
 }  // namespace
 
 PartPlan read_style(Section& section, std::span<const BrickKind> kinds, Stance usual) {
@@ -23,6 +52,7 @@ PartPlan read_style(Section& section, std::span<const BrickKind> kinds, Stance u
   plan.stance = section.stance("pose").value_or(usual);
   plan.color = section.color("color").value_or(kinds[plan.kind].color);
   plan.color_to = section.color("color_to").value_or(plan.color);
+  plan.paint = read_paint(section);
   return plan;
 }
 
@@ -208,12 +238,28 @@ void BrickLayer::close_part(const std::string& name, bool line) {
   first_ = layout_.brick_count();
 }
 
+namespace {
+
+/// The strokes over the bricks from `first` on, a later one over an earlier one. False: too many colours.
+bool paint(const PartPlan& plan, std::size_t first, Palette& palette, Layout& layout) {
+  for (const PaintStroke& stroke : plan.paint) {
+    const auto number = palette.number(stroke.color);
+    if (!number) return false;
+    const std::size_t end = std::min(layout.bricks.size(), first + static_cast<std::size_t>(stroke.last) + 1);
+    for (std::size_t i = first + static_cast<std::size_t>(stroke.first); i < end; ++i) layout.bricks[i].color = *number;
+  }
+  return true;
+}
+
+}  // namespace
+
 bool put_down(PartPlan& plan, Palette& palette, Layout& layout) {
   std::vector<std::uint16_t> shades = shades_of(plan, palette);
   if (shades.empty()) return false;
+  const auto first = layout.bricks.size();
   BrickLayer layer(plan, std::move(shades), layout);
   std::visit([&](auto& shape) { put(plan, shape, layer); }, plan.shape);
-  return true;
+  return paint(plan, first, palette, layout);
 }
 
 }  // namespace topple

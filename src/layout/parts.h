@@ -80,6 +80,12 @@ struct BallPlan {
   double start = 0.0;  ///< [s]
 };
 
+/// Bricks of a part in a colour of their own, whatever the part's colours say.
+struct PaintStroke {
+  std::int64_t first = 0, last = 0;  ///< Within the part; what lies beyond its end waits until there are so many bricks.
+  Color color;
+};
+
 /// One entry of the file that makes bricks, understood and counted.
 struct PartPlan {
   Place place;
@@ -88,6 +94,7 @@ struct PartPlan {
   std::uint16_t kind = 0;
   Stance stance = Stance::standing;
   Color color, color_to;  ///< Of the first brick and of the last.
+  std::vector<PaintStroke> paint;
   std::int64_t count = 0;
   std::variant<RowPlan, CurvePlan, BrickPlan, WallPlan, TowerPlan, PyramidPlan, FieldPlan, BallPlan> shape;
 };

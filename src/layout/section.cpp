@@ -32,6 +32,8 @@ int hexadecimal_digit(char c) {
   return -1;
 }
 
+}  // namespace
+
 std::optional<Color> color_of(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
   std::uint8_t bytes[3] = {};
@@ -42,8 +44,6 @@ std::optional<Color> color_of(std::string_view text) {
   }
   return Color{bytes[0], bytes[1], bytes[2]};
 }
-
-}  // namespace
 
 std::string range_text(const Range& range) {
   // Allowed numbers that a person can read: 100,000,000.
@@ -194,6 +194,22 @@ std::optional<std::vector<Vec3>> Section::points(std::string_view key) {
   }
   if (points.size() != array->size()) return std::nullopt;
   return points;
+}
+
+std::span<const Node> Section::list(std::string_view key, std::size_t most, std::string_view what) {
+  const Node* node = find(key);
+  if (!node) return {};
+  const auto* array = std::get_if<Array>(&node->value);
+  if (array && array->size() <= most) return *array;
+  problem(key, must_be("a list of at most " + count_text(static_cast<long long>(most)) + " " + std::string(what), *node));
+  return {};
+}
+
+void Section::problem_at(std::string_view key, std::size_t entry, std::string_view what) {
+  const Node* node = find(key);
+  const auto* array = node ? std::get_if<Array>(&node->value) : nullptr;
+  const Place& place = array && entry < array->size() ? (*array)[entry].place : place_of(key);
+  fault(place, path_of(key) + "." + std::to_string(entry), what);
 }
 
 }  // namespace topple

@@ -25,6 +25,9 @@ std::string range_text(const Range& range);
 /// The value for a message: -5, "text", "a list of 3".
 std::string value_text(const Node& node);
 
+/// "#rrggbb" with hexadecimal digits; empty for anything else.
+std::optional<Color> color_of(std::string_view text);
+
 class Section {
  public:
   /// `node` must be a table. Keys that are not among `known` are problems at once.
@@ -47,6 +50,10 @@ class Section {
   std::optional<Vec3> point(std::string_view key, std::size_t most_numbers);
   std::optional<Stance> stance(std::string_view key);
   std::optional<std::vector<Vec3>> points(std::string_view key);
+  /// The entries of a list of at most so many; empty where the key is missing, too.
+  std::span<const Node> list(std::string_view key, std::size_t most, std::string_view what);
+  /// A problem of one entry of a list.
+  void problem_at(std::string_view key, std::size_t entry, std::string_view what);
 
   void problem(std::string_view key, std::string_view what);
   void missing(std::string_view what);  ///< A problem of the table as a whole.

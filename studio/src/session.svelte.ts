@@ -137,7 +137,7 @@ export class Session {
     this.screen.clear();
     stage.replaceFresh(recording);
     this.screen.fit();
-    stage.view?.rig.setDrawing(this.mode === 'draw');
+    if (stage.view) stage.view.drawing = this.mode === 'draw';
     stage.frameAll(true);
   }
 
@@ -156,7 +156,7 @@ export class Session {
     this.mode = next;
     this.screen.clear();
     player.playing = false;
-    stage.view?.rig.setDrawing(next === 'draw');
+    if (stage.view) stage.view.drawing = next === 'draw';
     if (next === 'draw') {
       studio.stop();
       if (!bare && !this.finished && player.recording?.recipe.layoutText && player.recording.recipe.model) this.editRecording();
@@ -192,8 +192,9 @@ export class Session {
     stage.replace(layout.recording);
     this.mode = 'watch';
     this.screen.clear();
-    stage.view?.rig.setDrawing(false);
+    if (stage.view) stage.view.drawing = false;
     player.growing = true;
+    player.expected = studio.expected + 0.7; // and a second for what still settles
     player.speed = 1;
     player.playing = true;
     const run = await studio.run({

@@ -123,4 +123,28 @@ TEST_CASE("a line of 24 km and 500,000 dominoes at an inch and more is a layout"
   CHECK(read("[[row]]\nlength_mm = 24e6\npitch_mm = 48\n").brick_count() == 500001);
 }
 
+TEST_CASE("a brush gives bricks of a part colours of their own, the last stroke on top, and moves none of them") {
+  const std::string plain = "[[row]]\nfrom_mm = [0, 100]\ncount = 6\npitch_mm = 24\ncolor = \"#101010\"\n";
+  const Layout layout = read(std::string(kRow) + plain + "paint = [[1, 4, \"#202020\"], [2, 2, \"#303030\"], [5, 90, \"#404040\"]]\n");
+  const auto red = [&](std::size_t brick) { return layout.colors[layout.bricks[brick].color].red; };
+  const int expected[] = {0x10, 0x20, 0x30, 0x20, 0x20, 0x40};  // the second part's: the first three bricks are another row's
+  for (std::size_t i = 0; i < 6; ++i) CHECK(red(3 + i) == expected[i]);
+  CHECK(layout.bricks.size() == 9);
+  CHECK(red(0) == red(2));
+}
+
+TEST_CASE("a stroke of the brush that is none is told with its place") {
+  const auto words = [](const std::string& stroke) {
+    const auto layout = read_layout(std::string(kRow) + "paint = [[0, 1, \"#202020\"], " + stroke + "]\n", "test.toml");
+    REQUIRE(!layout.has_value());
+    return layout.error().message;
+  };
+  for (const char* bad : {"[1, 2]", "[2, 1, \"#202020\"]", "[-1, 1, \"#202020\"]", "[0, 1, \"blue\"]", "[0.5, 1, \"#202020\"]", "7"}) {
+    CHECK(words(bad).starts_with("test.toml:4:29: row.0.paint.1: must be [first brick, last brick, \"#rrggbb\"]"));
+  }
+  CHECK(read_layout(std::string(kRow) + "paint = 3\n", "test.toml")
+            .error()
+            .message.starts_with("test.toml:4:9: row.0.paint: must be a list"));
+}
+
 }  // namespace topple

@@ -30,8 +30,11 @@ export function drawSide(canvas: HTMLCanvasElement, recording: Recording, poseOf
     pen.beginPath();
     hull.forEach(([px, py], i) => (i ? pen.lineTo(x(px), y(py)) : pen.moveTo(x(px), y(py))));
     pen.closePath();
-    pen.fillStyle = colors[bricks.color[brick]];
+    pen.fillStyle = pen.strokeStyle = colors[bricks.color[brick]];
+    pen.lineWidth = 1;
+    pen.stroke();
     pen.fill();
+    if (scale < 0.25 * ratio * 1000) continue; // an outline would hide so small a brick
     pen.strokeStyle = 'rgb(0 0 0 / 35%)';
     pen.lineWidth = 0.7 * ratio;
     pen.stroke();

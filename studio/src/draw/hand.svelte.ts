@@ -1,11 +1,10 @@
 /** What the pointer does on the table while one draws: strokes that become parts, parts that are dragged, points that are pulled. In mm. */
 
 import type { Stage } from '../player/stage.svelte.ts';
-import { headingOf, nameOf, partsOf, pointsOf, setHeading, setPoints, thicknessOf, type Point } from './parts.ts';
+import { headingOf, nameOf, paintBrick, partsOf, pointsOf, setHeading, setPoints, sizeOf, thicknessOf, type Point } from './parts.ts';
 import * as shapes from './shapes.ts';
 import type { Studio } from './studio.svelte.ts';
 
-const kWidth = 24;
 /** Bricks' lanes in a spiral stand so far apart [mm]: a fallen brick does not reach the next lane. */
 const kLane = 78;
 const kSnapPixels = 18;
@@ -33,6 +32,8 @@ export class Hand {
   private deed: 'stroke' | 'drag' | 'frame' | 'grip' | 'none' = 'none';
   private grip: Grip | null = null;
   private moved = false;
+  /** The brick that the brush touched last. */
+  private painted = -1;
 
   constructor(
     private readonly studio: Studio,
@@ -43,8 +44,12 @@ export class Hand {
     return this.deed !== 'none';
   }
 
+  /** Of the kind that new parts are given [mm]. */
+  private get size(): { height: number; width: number; thickness: number } {
+    return sizeOf(this.studio.file, this.studio.style.kind);
+  }
   private get pitch(): number {
-    return this.studio.style.gap + 7.5;
+    return this.studio.style.gap + this.size.thickness;
   }
 
   /** @param x, y In CSS pixels from the view's upper left corner. */
@@ -70,6 +75,7 @@ export class Hand {
         if (brick >= 0) studio.pushBrick(brick);
         return;
       case 'brush':
+        this.painted = -1;
         this.paint(brick);
         this.deed = 'drag';
         return;
@@ -96,16 +102,18 @@ export class Hand {
     this.deed = 'drag';
   }
 
+  /** Colours the brick under the brush. */
   private paint(brick: number): void {
     const { studio } = this;
-    const part = brick >= 0 ? studio.partOf(brick) : -1;
-    if (part < 0) return;
+    const index = brick >= 0 ? studio.partOf(brick) : -1;
+    const span = studio.spanOf(index);
+    if (!span || brick === this.painted) return;
+    this.painted = brick;
     studio.edit((file) => {
-      const block = partsOf(file)[part];
-      block.set('color', studio.style.color);
-      if (studio.style.colorTo) block.set('color_to', studio.style.colorTo);
-      else block.remove('color_to');
-    }, `brush ${part}`);
+      const part = partsOf(file)[index];
+      if (part.name === 'brick' || part.name === 'ball') part.set('color', studio.style.color);
+      else paintBrick(part, brick - span.first, studio.style.color);
+    }, 'brush');
   }
 
   takeGrip(grip: Grip): void {
@@ -147,6 +155,10 @@ export class Hand {
     if (tool === 'row') this.words = `${size}, ${count} bricks, gap ${style.gap} mm`;
     else if (tool === 'circle' || tool === 'spiral') this.words = `radius ${size}`;
     else if (tool === 'field') this.words = `${Math.round(Math.abs(at.x - from.x))} × ${Math.round(Math.abs(at.y - from.y))} mm`;
+    else if (tool === 'wall') this.words = `${shapes.wallCount(from, at, this.size)} bricks wide, 5 high`;
+    else if (tool === 'pyramid') this.words = `${shapes.pyramidCounts(from, at, this.size).join(' × ')} bricks`;
+    else if (tool === 'ball') this.words = `rolls at ${shapes.ballSpeed(length).toFixed(2)} m/s`;
+    else if (tool === 'tower') this.words = `heading ${Math.round((Math.atan2(at.y - from.y, at.x - from.x) * 180) / Math.PI)}°`;
     else if (tool === 'curve') this.words = `${this.stroke.length > 1 ? Math.round(lengthOf(this.stroke)) : 0} mm`;
     else this.words = size;
   }
@@ -160,6 +172,7 @@ export class Hand {
       case 'ess':
         return shapes.essPoints(from, at);
       case 'field':
+      case 'pyramid':
         return [from, { x: at.x, y: from.y }, at, { x: from.x, y: at.y }, from];
       default:
         return [from, at];
@@ -188,14 +201,17 @@ export class Hand {
     const { studio, stroke } = this;
     const { style, tool } = studio;
     const from = this.from as Point;
-    const to = tool === 'field' ? stroke[2] : stroke[stroke.length - 1];
-    if (tool === 'brick') {
-      const far = this.moved && Math.hypot(to.x - from.x, to.y - from.y) > 10;
-      return studio.add(shapes.brickText(from, far ? (Math.atan2(to.y - from.y, to.x - from.x) * 180) / Math.PI : 0, style));
-    }
+    const to = tool === 'field' || tool === 'pyramid' ? stroke[2] : stroke[stroke.length - 1];
+    const length = this.moved && to ? Math.hypot(to.x - from.x, to.y - from.y) : 0;
+    const heading = length > 10 ? (Math.atan2(to.y - from.y, to.x - from.x) * 180) / Math.PI : 0;
+    if (tool === 'brick') return studio.add(shapes.brickText(from, heading, style));
+    if (tool === 'tower') return studio.add(shapes.towerText(from, heading, style));
+    if (tool === 'ball') return studio.add(shapes.ballText(from, heading, length > 10 ? shapes.ballSpeed(length) : 0.5, style));
     if (!this.moved || !to) return;
-    if (tool === 'row') studio.add(shapes.rowText(from, to, style, this.pitch));
-    else if (tool === 'field') studio.add(shapes.fieldText(from, to, style, this.pitch, kWidth));
+    if (tool === 'wall') studio.add(shapes.wallText(from, to, style, this.size));
+    else if (tool === 'pyramid') studio.add(shapes.pyramidText(from, to, style, this.size));
+    else if (tool === 'row') studio.add(shapes.rowText(from, to, style, this.pitch));
+    else if (tool === 'field') studio.add(shapes.fieldText(from, to, style, this.pitch, this.size.width));
     else {
       const points = tool === 'curve' ? shapes.smoothed(stroke, 8) : stroke;
       if (points.length > 1 && lengthOf(points) > this.pitch) studio.add(shapes.curveText(points, style));
@@ -206,7 +222,7 @@ export class Hand {
     const end = this.endNear(at, 60);
     if (!end) return;
     const { studio } = this;
-    const arms = shapes.splitArms(end.foot, end.heading, this.pitch, kWidth);
+    const arms = shapes.splitArms(end.foot, end.heading, this.pitch, this.size.width);
     studio.add(...arms.map((arm) => shapes.curveText(arm, studio.style)));
   }
 
@@ -301,15 +317,15 @@ export class Hand {
     return beside ? Math.hypot(beside.x - at.x, beside.y - at.y) / 8 : 1;
   }
 
-  /** A row keeps to whole degrees, with Shift to steps of 15. */
+  /** What has a heading keeps to whole degrees, with Shift to steps of 15. */
   private snappedEnd(at: Point, shift: boolean): Point {
     const { tool } = this.studio;
     const from = this.from as Point;
-    if (tool !== 'row' && !shift) return at;
+    if (!['row', 'wall', 'tower', 'ball', 'brick'].includes(tool) && !shift) return at;
     const length = Math.hypot(at.x - from.x, at.y - from.y);
     const step = (shift ? 15 : 1) * (Math.PI / 180);
     const angle = Math.round(Math.atan2(at.y - from.y, at.x - from.x) / step) * step;
-    return tool === 'curve' ? at : { x: from.x + length * Math.cos(angle), y: from.y + length * Math.sin(angle) };
+    return tool === 'curve' || tool === 'field' || tool === 'pyramid' ? at : { x: from.x + length * Math.cos(angle), y: from.y + length * Math.sin(angle) };
   }
 
   /** "Curve 1, 84 bricks" of each chosen part. */

@@ -15,7 +15,7 @@ export interface DrawActions {
 export const kDrawKeys = {
   title: 'Drawing',
   keys: [
-    ...[['V', 'Select'], ['R', 'Row'], ['C', 'Curve'], ['O', 'Circle'], ['S', 'Spiral'], ['Z', 'S'], ['Y', 'Split'], ['B', 'Brick'], ['F', 'Field'], ['P', 'Push'], ['K', 'Brush'], ['M', 'Measure']].map(([key, does]) => ({ keys: [key], does })),
+    ...[['V', 'Select'], ['R', 'Row'], ['C', 'Curve'], ['O', 'Circle'], ['S', 'Spiral'], ['Z', 'S'], ['Y', 'Split'], ['B', 'Brick'], ['F', 'Field'], ['W', 'Wall'], ['T', 'Tower'], ['A', 'Pyramid'], ['L', 'Ball'], ['P', 'Push'], ['K', 'Brush'], ['M', 'Measure']].map(([key, does]) => ({ keys: [key], does })),
     { keys: ['Ctrl', 'Z'], does: 'Undo; with Shift redo' },
     { keys: ['Ctrl', 'D'], does: 'Duplicate' },
     { keys: ['Ctrl', 'A'], does: 'Choose all' },

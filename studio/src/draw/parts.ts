@@ -75,6 +75,36 @@ export function setHeading(part: Block, degrees: number): void {
   part.set('heading_deg', whole);
 }
 
+/** Of a kind by its name, or of the first one where there is none of that name [mm]. */
+export function sizeOf(file: TomlFile, kind: string): { height: number; width: number; thickness: number } {
+  const kinds = file.list('kind');
+  const found = kinds.find((one) => one.string('name') === kind) ?? kinds[0];
+  return { height: found?.number('height_mm', 48) ?? 48, width: found?.number('width_mm', 24) ?? 24, thickness: found?.number('thickness_mm', 7.5) ?? 7.5 };
+}
+
+/** Bricks of a part in colours of their own: [first, last, colour], counted within the part. */
+export type PaintStroke = [number, number, string];
+
+export function paintOf(part: Block): PaintStroke[] {
+  const value = part.get('paint');
+  return Array.isArray(value) ? value.filter((one): one is PaintStroke => Array.isArray(one) && one.length === 3) : [];
+}
+
+/** Gives one brick of a part a colour; strokes next to each other in one colour become one. */
+export function paintBrick(part: Block, brick: number, color: string): void {
+  const colors = new Map<number, string>();
+  for (const [first, last, stroke] of paintOf(part)) for (let i = first; i <= last; i++) colors.set(i, stroke);
+  colors.set(brick, color);
+  const strokes: PaintStroke[] = [];
+  for (const i of [...colors.keys()].sort((a, b) => a - b)) {
+    const before = strokes.at(-1);
+    const own = colors.get(i) as string;
+    if (before && before[1] === i - 1 && before[2] === own) before[1] = i;
+    else strokes.push([i, i, own]);
+  }
+  part.set('paint', strokes);
+}
+
 /** Size along the fall of a standing brick of the part's kind [mm]. */
 export function thicknessOf(file: TomlFile, part: Block): number {
   const kinds = file.list('kind');

@@ -50,6 +50,44 @@ export function fieldText(a: Point, b: Point, style: Style, pitch: number, width
   return `[[field]]\nfrom_mm = ${pointText(from)}\nrows = ${rows}\nrow_pitch_mm = ${writeValue(rowPitch)}\ncount = ${count}\nstarter = "${starter}"\n${styleLines(style)}`;
 }
 
+/** What its colours and kind say, without a gap. */
+function plainStyle(style: Style): string {
+  return styleLines(style).replace(/^gap_mm.*\n/, '');
+}
+
+const heightOf = (size: { height: number }): number => size.height;
+const middle = (a: Point, b: Point): Point => ({ x: (a.x + b.x) / 2, y: (a.y + b.y) / 2 });
+
+/** Bricks of a wall's lowest course between two places: they lie on their long narrow side. */
+export function wallCount(from: Point, to: Point, size: { height: number }): number {
+  return Math.max(1, Math.round(distance(from, to) / heightOf(size)));
+}
+export function wallText(from: Point, to: Point, style: Style, size: { height: number }): string {
+  const heading = degrees(Math.atan2(to.y - from.y, to.x - from.x)) - 90;
+  return `[[wall]]\nat_mm = ${pointText(middle(from, to))}\nheading_deg = ${writeValue(heading)}\ncount = ${wallCount(from, to, size)}\ncourses = 5\n${plainStyle(style)}`;
+}
+
+export function towerText(at: Point, heading: number, style: Style): string {
+  return `[[tower]]\nat_mm = ${pointText(at)}\nheading_deg = ${writeValue(heading)}\nlayers = 8\n${plainStyle(style)}`;
+}
+
+/** How many flat bricks fill the rectangle between two corners, along x and across: two of each at least. */
+export function pyramidCounts(a: Point, b: Point, size: { height: number; width: number }): [number, number] {
+  return [Math.max(2, Math.round(Math.abs(b.x - a.x) / size.height)), Math.max(2, Math.round(Math.abs(b.y - a.y) / size.width))];
+}
+export function pyramidText(a: Point, b: Point, style: Style, size: { height: number; width: number }): string {
+  const [along, across] = pyramidCounts(a, b, size);
+  return `[[pyramid]]\nat_mm = ${pointText(middle(a, b))}\ncount_along = ${along}\ncount_across = ${across}\n${plainStyle(style)}`;
+}
+
+/** A stroke of 200 mm rolls it at a metre a second. */
+export function ballSpeed(length: number): number {
+  return Math.max(0.05, Math.round(length / 10) / 20);
+}
+export function ballText(at: Point, heading: number, speed: number, style: Style): string {
+  return `[[ball]]\nat_mm = ${pointText(at)}\nheading_deg = ${writeValue(heading)}\nspeed_m_s = ${writeValue(speed)}\ndiameter_mm = 30\ncolor = ${writeValue(style.color)}\n`;
+}
+
 /** Nearly a whole circle: a pitch is left open, so that the last brick does not stand on the first. */
 export function circlePoints(middle: Point, rim: Point, pitch: number): Point[] {
   const radius = Math.max(distance(middle, rim), 2.2 * pitch);

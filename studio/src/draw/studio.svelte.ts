@@ -4,12 +4,12 @@
  */
 
 import { EngineClient, Refused, Superseded, type Finished, type ReadLayout, type RunWatch } from '../engine/client.ts';
-import { usualEnd } from '../recording/wave.ts';
+import { lastArrival } from '../recording/wave.ts';
 import { mirrorPart, movePart, nameOf, partsOf, pointsOf, turnPart, type Point } from './parts.ts';
 import type { Style } from './shapes.ts';
 import { Block, TomlFile } from './toml.ts';
 
-export type Tool = 'select' | 'row' | 'curve' | 'circle' | 'spiral' | 'ess' | 'split' | 'brick' | 'field' | 'push' | 'measure' | 'brush';
+export type Tool = 'select' | 'row' | 'curve' | 'circle' | 'spiral' | 'ess' | 'split' | 'brick' | 'field' | 'wall' | 'tower' | 'pyramid' | 'ball' | 'push' | 'measure' | 'brush';
 
 /** Bricks of a part: ends of what it made [first, last]. */
 export interface Span {
@@ -26,6 +26,9 @@ const kOwnKeys: Record<ModelName, string[]> = {
   hinge: ['rest_tolerance', 'time_step_s'],
   rigid: ['time_step_s'],
 };
+
+/** The colours that new parts go through. */
+const kHues = ['#d92b2b', '#f0821e', '#f2b928', '#3faa46', '#17a398', '#1478c8', '#7832be', '#c2185b'];
 
 export const kEmpty = '[model]\nname = "rigid"\n';
 
@@ -44,7 +47,9 @@ export class Studio {
   tool = $state<Tool>('select');
   /** Chosen parts, by their place in the file's order. */
   chosen = $state.raw<number[]>([]);
-  style = $state<Style>({ gap: 16.5, color: '#d92b2b', colorTo: '', kind: '' });
+  style = $state<Style>({ gap: 16.5, color: kHues[0], colorTo: kHues[1], kind: '' });
+  /** A new part goes on through the colours from where the last one ended, until a person chooses them. */
+  colorsGoOn = true;
   saved = $state<'saved' | 'unsaved' | 'full'>('saved');
   /** How long the run takes by the quick model [s]; NaN: not known. */
   expected = $state(NaN);
@@ -253,6 +258,19 @@ export class Studio {
     this.edit((file) => this.addPush(file, brick, true));
   }
 
+  /** Changes a number of the i-th push. */
+  setPush(index: number, key: string, value: number): void {
+    if (key === 'brick') this.anchors = [];
+    this.edit((file) => file.list('push')[index]?.set(key, value), `push ${index} ${key}`);
+  }
+  removePush(index: number): void {
+    this.anchors = [];
+    this.edit((file) => {
+      const push = file.list('push')[index];
+      if (push) file.remove(push);
+    });
+  }
+
   private addPush(file: TomlFile, brick: number, last = false): void {
     const block = new Block(`[[push]]\nbrick = ${brick}\nangular_speed_rad_s = 4\n\n`);
     const pushes = file.list('push');
@@ -264,7 +282,8 @@ export class Studio {
   /** A new part at the end; the first of all brings a push along. */
   add(...texts: string[]): void {
     this.edit((file) => {
-      if (file.list('push').length === 0 && partsOf(file).length === 0) this.addPush(file, 0);
+      const rolls = texts[0].startsWith('[[ball]]');
+      if (file.list('push').length === 0 && partsOf(file).length === 0 && !rolls) this.addPush(file, 0);
       const model = file.table('model');
       if (model) file.remove(model);
       for (const text of texts) file.append(text);
@@ -272,6 +291,9 @@ export class Studio {
       const all = partsOf(file).length;
       this.chosen = texts.map((_, i) => all - texts.length + i);
     });
+    if (!this.colorsGoOn || !/^color_to/m.test(texts[0])) return;
+    const next = kHues[(kHues.indexOf(this.style.colorTo) + 1) % kHues.length];
+    this.style = { ...this.style, color: this.style.colorTo, colorTo: next };
   }
 
   chosenBlocks(file: TomlFile): Block[] {
@@ -340,7 +362,9 @@ export class Studio {
       movePart(copy, 0, -60);
       return copy.text;
     });
+    const { style } = this;
     if (blocks.length) this.add(...blocks);
+    this.style = style; // a copy takes no colour
   }
   /** Sets a value of every chosen part. */
   set(key: string, value: string | number, group = key): void {
@@ -379,7 +403,7 @@ export class Studio {
       try {
         const source = { text: withModel(text, model), name: 'layout.toml', overrides: [] };
         const { loaded } = await this.quick.run(source).finished;
-        if (text === this.text) this.expected = usualEnd(loaded.recording) - 0.5;
+        if (text === this.text) this.expected = lastArrival(loaded.recording) + 0.3;
         return;
       } catch {
         continue;

@@ -15,6 +15,8 @@ export interface StripLook {
   width: number;
   /** Of the front's part [px]. */
   height: number;
+  /** Seconds over its width: the recording's, or more while it grows. */
+  span: number;
   colors: { well: string; line: string; ink: string; accent: string; soft: string };
 }
 
@@ -41,11 +43,11 @@ export function drawStrip(canvas: HTMLCanvasElement, loaded: Loaded, look: Strip
   const pen = canvas.getContext('2d');
   if (!pen) return;
   pen.scale(ratio, ratio);
-  const x = (time: number): number => (time / loaded.recording.duration) * width;
+  const x = (time: number): number => (time / look.span) * width;
   if (!passed) {
     pen.fillStyle = colors.well;
     rounded(pen, 0, 0, width, height, 4);
-    drawRibbon(pen, loaded, width, height + kRibbonGap, colors.well);
+    drawRibbon(pen, loaded, look, height + kRibbonGap);
   }
   drawFront(pen, loaded, x, look, passed);
   drawTicks(pen, loaded, x, look);
@@ -80,20 +82,20 @@ function drawFront(pen: CanvasRenderingContext2D, { front, recording }: Loaded, 
 }
 
 /** Under each moment the colour of the brick that the wave reached last. */
-function drawRibbon(pen: CanvasRenderingContext2D, { front, recording }: Loaded, width: number, top: number, well: string): void {
-  pen.fillStyle = well;
+function drawRibbon(pen: CanvasRenderingContext2D, { front, recording }: Loaded, { width, span, colors }: StripLook, top: number): void {
+  pen.fillStyle = colors.well;
   rounded(pen, 0, top, width, kRibbon, 4);
   if (front.time.length === 0) return;
   pen.save();
   pen.beginPath();
   pen.roundRect(0, top, width, kRibbon, 4);
   pen.clip();
-  const first = (front.time[0] / recording.duration) * width;
+  const first = (front.time[0] / span) * width;
   // Of a run that still grows, the front may be further than what can be shown.
-  const last = Math.min(width, (front.time[front.time.length - 1] / recording.duration) * width);
+  const last = Math.min(width, (front.time[front.time.length - 1] / span) * width);
   if (!Number.isFinite(first + last)) return;
   for (let at = Math.floor(first); at <= Math.max(first + 2, last); at++) {
-    const i = Math.max(0, lastNotOver(front.time, (at / width) * recording.duration));
+    const i = Math.max(0, lastNotOver(front.time, (at / width) * span));
     pen.fillStyle = recording.colors[recording.bricks.color[front.brick[i]]];
     pen.fillRect(at, top, 1.5, kRibbon);
   }

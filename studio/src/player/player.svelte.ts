@@ -8,6 +8,10 @@ import { firstSpeed, nextStop } from './speeds.ts';
 
 /** A frame step is what a screen of 60 pictures a second would show next at the chosen speed. */
 const kFrame = 1 / 60;
+/** Slow motion: how slow, and how much before and after the cursor [s of the run]. */
+const kSlow = 1 / 10;
+const kSlowBefore = 0.1;
+const kSlowAfter = 0.2;
 
 /** Numbers that `topple run --json` prints, as far as the page shows them. */
 export interface Summary {
@@ -50,11 +54,14 @@ export class Player {
     this.playing = false;
     this.chosen = -1;
     this.range = null;
+    this.slowed = null;
     this.speed = firstSpeed(loaded.recording.duration);
   }
 
   /** Whether more of the run is still to come. */
   growing = $state(false);
+  /** How long the run is expected to be [s]; NaN: not known. */
+  expected = $state(NaN);
 
   /** The bricks of a layout, without any motion. */
   show(recording: Recording): void {
@@ -66,6 +73,7 @@ export class Player {
     this.growing = false;
     this.chosen = -1;
     this.range = null;
+    this.slowed = null;
   }
 
   /** More of the run that is shown. */
@@ -106,6 +114,26 @@ export class Player {
       }
     }
     this.time = time;
+  }
+
+  /** What slow motion around the cursor takes the place of; null: it is off. */
+  slowed = $state.raw<{ speed: number; looping: boolean; range: { from: number; to: number } | null } | null>(null);
+
+  /** Slow motion around the cursor, over and over; again: on as before. */
+  toggleSlow(): void {
+    if (this.slowed) {
+      Object.assign(this, { ...this.slowed, slowed: null });
+      return;
+    }
+    if (!this.loaded) return;
+    const { speed, looping, range, time } = this;
+    this.slowed = { speed, looping, range };
+    const from = Math.max(0, Math.min(time, this.duration - kSlowAfter) - kSlowBefore);
+    this.range = { from, to: Math.min(this.duration, from + kSlowBefore + kSlowAfter) };
+    this.looping = true;
+    this.speed = kSlow;
+    this.time = from;
+    this.playing = true;
   }
 
   /** @param frames How many, backwards if negative. */

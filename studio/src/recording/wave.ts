@@ -139,9 +139,13 @@ function lastPassing(recording: Recording, first: number, last: number, past: (t
   return tracks.start[first];
 }
 
+/** When the wave reached its last brick [s]; the end of a run in which it reached none. */
+export function lastArrival({ events, duration }: Recording): number {
+  for (let i = events.count - 1; i >= 0; i--) if (events.kind[i] === EventKind.arrived) return events.time[i];
+  return duration;
+}
+
 /** A second after the wave reached its last brick: later only small settling goes on. */
 export function usualEnd(recording: Recording): number {
-  const { events } = recording;
-  for (let i = events.count - 1; i >= 0; i--) if (events.kind[i] === EventKind.arrived) return Math.min(recording.duration, events.time[i] + 1);
-  return recording.duration;
+  return Math.min(recording.duration, lastArrival(recording) + 1);
 }

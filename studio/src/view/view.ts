@@ -54,6 +54,7 @@ export class View {
   private dirty = true;
   private quiet = 0;
   private share = 0;
+  private gridded = false;
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -122,6 +123,13 @@ export class View {
     this.live.setSize(size.x, size.y);
     this.still.resize(size.x, size.y);
     this.rig.resize(width / height);
+    this.changed();
+  }
+
+  /** Lines on the table while one draws. */
+  set drawing(on: boolean) {
+    this.rig.setDrawing(on);
+    this.gridded = on;
     this.changed();
   }
 
@@ -197,6 +205,7 @@ export class View {
   }
 
   private prepare(): void {
+    this.table.showGrid(this.gridded, this.playhead.origin);
     const target = this.rig.controls.target;
     const extent = this.bounds.high.distanceTo(this.bounds.low);
     this.table.fit(target.x, target.y, this.rig.distance, Math.min(extent, 4 * this.rig.distance));

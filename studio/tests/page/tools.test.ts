@@ -1,0 +1,178 @@
+/** Tools for structures, the brush, the push in the panel, slow motion, and what a growing run shows. */
+
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, beforeEach, expect, test } from 'vitest';
+import { launch, serve, type Site } from './browser.ts';
+
+let browser: Browser;
+let site: Site;
+let page: Page;
+const complaints: string[] = [];
+
+beforeAll(async () => {
+  site = await serve(null);
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  await site?.close();
+});
+beforeEach(async () => {
+  await page?.context().close();
+  const context = await browser.newContext({ viewport: { width: 1000, height: 640 }, reducedMotion: 'reduce' });
+  page = await context.newPage();
+  page.on('console', (message) => message.type() === 'error' && complaints.push(message.text()));
+  page.on('pageerror', (error) => complaints.push(error.message));
+  await page.goto(`${site.url}?still=off`);
+  await page.waitForFunction(() => window.topple?.mode === 'draw');
+});
+
+const text = (): Promise<string> => page.evaluate(() => window.topple.text);
+const drawn = (): Promise<number> => page.evaluate(() => window.topple.drawn);
+const settled = (): Promise<unknown> => page.waitForFunction(() => window.topple.settled && window.topple.drawn > 0);
+const tool = (name: string): Promise<void> => page.getByRole('button', { name, exact: true }).click();
+const pixel = async (x: number, y: number): Promise<{ x: number; y: number }> => (await page.evaluate(([a, b]) => window.topple.pixelAt(a, b), [x, y]))!;
+async function drag(from: [number, number], to: [number, number]): Promise<void> {
+  const [a, b] = [await pixel(...from), await pixel(...to)];
+  await page.mouse.move(a.x, a.y);
+  await page.mouse.down();
+  await page.mouse.move((a.x + b.x) / 2, (a.y + b.y) / 2, { steps: 3 });
+  await page.mouse.move(b.x, b.y, { steps: 3 });
+  await page.mouse.up();
+}
+
+test('a wall runs across the way it falls, as long as it was drawn, and its panel makes it higher', async () => {
+  await tool('Wall');
+  await drag([-96, 0], [96, 0]); // four bricks of 48 mm
+  await settled();
+  expect(await text()).toMatch(/\[\[wall\]\][\s\S]*heading_deg = -90[\s\S]*count = 4\ncourses = 5/);
+  // 4 + 5 + 4 + 5 + 4: every second course is closed by two halves.
+  expect(await drawn()).toBe(22);
+  await page.getByLabel('High').fill('2');
+  await page.getByLabel('High').press('Enter');
+  await expect.poll(drawn).toBe(9);
+});
+
+test('towers and pyramids stand where they are put', async () => {
+  await tool('Tower');
+  const at = await pixel(0, 0);
+  await page.mouse.click(at.x, at.y);
+  await settled();
+  expect(await text()).toMatch(/\[\[tower\]\]\nat_mm = \[-?0(\.\d)?, -?0(\.\d)?\][\s\S]*layers = 8/);
+  expect(await drawn()).toBe(16);
+  await tool('Pyramid');
+  await drag([100, 100], [244, 172]); // 3 × 48 mm by 3 × 24 mm
+  await expect.poll(text).toMatch(/count_along = 3\ncount_across = 3/);
+  await expect.poll(drawn).toBe(16 + 9 + 4 + 1);
+  await page.keyboard.press('Control+z');
+  await expect.poll(drawn).toBe(16);
+});
+
+test('a ball is drawn with its way and speed, brings no push along, and lets a row fall', async () => {
+  await tool('Ball');
+  await drag([-300, 0], [-100, 0]);
+  await settled();
+  expect(await text()).toMatch(/\[\[ball\]\][\s\S]*heading_deg = 0\nspeed_m_s = 1\n/);
+  expect(await text()).not.toMatch(/\[\[push\]\]/);
+  await tool('Row');
+  await drag([-40, 0], [150, 0]);
+  await expect.poll(drawn).toBeGreaterThan(5);
+  await settled();
+  expect(await page.evaluate(() => window.topple.doubts)).toEqual([]);
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.keyboard.press('End');
+  await expect.poll(() => page.evaluate(() => window.topple.fallen)).toBeGreaterThan(5);
+});
+
+test('a stroke that begins at the end of a part goes on from it, a pitch further', async () => {
+  await tool('Row');
+  await drag([-300, 0], [-60, 0]); // 11 bricks; the last at -60 mm
+  await settled();
+  await tool('Wall');
+  await drag([-58, 2], [-58, 98]);
+  await expect.poll(text).toMatch(/\[\[wall\]\]\nat_mm = \[-\d+(\.\d)?, \d+(\.\d)?\]/);
+  const [, x, y] = /\[\[wall\]\]\nat_mm = \[(-?[\d.]+), (-?[\d.]+)\]/.exec(await text())!.map(Number);
+  // It starts at (-36, 0), 24 mm past the last brick; its middle is half its length on.
+  expect(Math.hypot(x + 36, y)).toBeGreaterThan(40);
+  expect(Math.abs(2 * x + 36 - -58)).toBeLessThan(30);
+});
+
+test('the brush colours single bricks, one stroke is one step of undo', async () => {
+  await tool('Row');
+  await drag([-150, 0], [150, 0]);
+  await settled();
+  const before = await text();
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('Escape'); // nothing is chosen: the palette is the brush's
+  await page.getByRole('button', { name: 'Colour #17a398' }).click();
+  await tool('Brush');
+  const at = async (brick: number): Promise<{ x: number; y: number }> => (await page.evaluate((b) => window.topple.placeOf(b), brick))!;
+  const [a, b] = [await at(3), await at(5)];
+  await page.mouse.move(a.x, a.y);
+  await page.mouse.down();
+  await page.mouse.move(b.x, b.y, { steps: 12 });
+  await page.mouse.up();
+  await expect.poll(text).toContain('paint = [[3, 5, "#17a398"]]');
+  await settled();
+  await expect.poll(() => page.getByLabel('Colours and kinds').innerText()).toMatch(/Teal\s*3/);
+  await page.keyboard.press('Control+z');
+  expect(await text()).toBe(before);
+});
+
+test('the push can be changed in the panel', async () => {
+  await tool('Row');
+  await drag([-150, 0], [150, 0]);
+  await settled();
+  await page.getByLabel('Brick that is pushed').fill('4');
+  await page.getByLabel('Brick that is pushed').press('Enter');
+  await page.getByLabel(/^How/).fill('2.5');
+  await page.getByLabel(/^How/).press('Enter');
+  await expect.poll(text).toMatch(/\[\[push\]\]\nbrick = 4\nangular_speed_rad_s = 2\.5/);
+  await settled();
+  expect(await page.evaluate(() => window.topple.doubts.join())).toMatch(/brick 0/); // nothing reaches it any more
+});
+
+test('slow motion goes round the cursor, and back to what it was', async () => {
+  await tool('Row');
+  await drag([-250, 0], [250, 0]);
+  await settled();
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.evaluate(() => window.topple.seek(0.5));
+  await page.keyboard.press('s');
+  const slow = page.getByRole('button', { name: 'Slow motion' });
+  expect(await slow.getAttribute('aria-pressed')).toBe('true');
+  expect(await page.locator('.transport output').innerText()).toBe('1/10×');
+  for (let i = 0; i < 5; i++) {
+    const time = await page.evaluate(() => window.topple.time);
+    expect(time).toBeGreaterThanOrEqual(0.399);
+    expect(time).toBeLessThanOrEqual(0.701);
+    await page.waitForTimeout(300);
+  }
+  await page.keyboard.press('s');
+  expect(await slow.getAttribute('aria-pressed')).toBe('false');
+  expect(await page.locator('.transport output').innerText()).toBe('1×');
+  expect(await page.locator('.range').count()).toBe(0);
+});
+
+test('while a run goes on, what is not simulated yet is hatched', async () => {
+  await page.getByLabel('Layout or recording file').setInputFiles({
+    name: 'long.toml', mimeType: 'application/toml',
+    buffer: Buffer.from('[[push]]\nangular_speed_rad_s = 4\n\n[[row]]\ncount = 20000\ngap_mm = 16.5\n\n[model]\nname = "hinge"\n'),
+  });
+  await settled();
+  await page.locator('canvas').first().focus();
+  // The run may be over before one could look: what the page puts up is watched.
+  await page.evaluate(() => {
+    const seen = { hatched: 0 };
+    Object.assign(window, { seen });
+    new MutationObserver(() => (seen.hatched += document.querySelectorAll('[data-test=unknown]').length)).observe(document.body, { childList: true, subtree: true });
+  });
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  expect(await page.evaluate(() => (window as never as { seen: { hatched: number } }).seen.hatched)).toBeGreaterThan(0);
+  await expect.poll(() => page.locator('[data-test=unknown]').count()).toBe(0);
+});
+
+test('nothing was reported as an error', () => expect(complaints).toEqual([]));
