@@ -103,7 +103,7 @@ build_engine_if_possible() {
 
 build_page() {
   install_page_packages
-  local sources=(studio/package-lock.json studio/index.html studio/src studio/vite.config.ts studio/tsconfig.json)
+  local sources=(studio/package-lock.json studio/index.html studio/src studio/vite.config.ts studio/published.ts studio/tsconfig.json validation)
   [ ! -d studio/public ] || sources+=(studio/public)
   if [ ! -f studio/dist/index.html ] || changed build/studio.stamp "${sources[@]}"; then
     say "Building the page"

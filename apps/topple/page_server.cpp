@@ -6,7 +6,10 @@
 #include <chrono>
 #include <limits>
 #include <mutex>
+#include <random>
 #include <thread>
+
+#include "text.h"
 
 namespace topple::app {
 namespace {
@@ -29,6 +32,14 @@ bool asks_for_this_machine(const httplib::Request& request, int port) {
   const std::string host = request.get_header_value("Host");
   const std::string suffix = ":" + std::to_string(port);
   return host == kLoopback + suffix || host == "localhost" + suffix;
+}
+
+/// Browsers say from which page an order comes; this server's own pages alone may give any.
+bool comes_from_here(const httplib::Request& request, int port) {
+  if (!request.has_header("Origin")) return true;
+  const std::string origin = request.get_header_value("Origin");
+  const std::string suffix = ":" + std::to_string(port);
+  return request.get_header_value_count("Origin") == 1 && (origin == "http://127.0.0.1" + suffix || origin == "http://localhost" + suffix);
 }
 
 void refuse(httplib::Response& response, int status, const char* words) {
@@ -70,7 +81,8 @@ struct PageServer::State {
     if (!asks_for_this_machine(request, port)) {
       refuse(response, 403, "This server answers only to 127.0.0.1 and localhost.\n");
     } else if (request.method == "POST" && !inbox.empty() && request.path.starts_with(inbox)) {
-      return httplib::Server::HandlerResponse::Unhandled;  // To receive().
+      if (comes_from_here(request, port)) return httplib::Server::HandlerResponse::Unhandled;  // To receive() or stream().
+      refuse(response, 403, "This server takes orders from its own page alone.\n");
     } else if (request.method != "GET" && request.method != "HEAD") {
       response.set_header("Allow", "GET, HEAD");
       refuse(response, 405, "This server only shows.\n");
@@ -82,6 +94,11 @@ struct PageServer::State {
     return httplib::Server::HandlerResponse::Handled;
   }
 };
+
+std::string make_token() {
+  std::random_device device;
+  return formatted("%08x%08x%08x%08x", device(), device(), device(), device());
+}
 
 PageServer::PageServer() : state_(std::make_unique<State>()) {}
 PageServer::~PageServer() = default;
@@ -125,6 +142,30 @@ void PageServer::receive(const std::string& token, std::function<void(const std:
     const std::lock_guard<std::mutex> one_at_a_time(*turn);
     take(request.matches[1], request.body);
     response.status = 204;
+  });
+}
+
+void PageServer::stream(const std::string& token, std::size_t most,
+                        std::function<std::expected<NextBytes, Refusal>(const std::string& body)> begin) {
+  State& state = *state_;
+  state.inbox = "/" + token + "/";
+  state.server.set_payload_max_length(most);
+  state.server.Post(state.inbox + "run", [begin = std::move(begin)](const httplib::Request& request, httplib::Response& response) {
+    auto next = begin(request.body);
+    if (!next) {
+      refuse(response, next.error().status, next.error().words.c_str());
+      return;
+    }
+    response.set_header("Cache-Control", "no-store");
+    response.set_chunked_content_provider("application/octet-stream", [next = std::move(*next)](std::size_t, httplib::DataSink& sink) {
+      std::string bytes;
+      if (!sink.is_writable()) return false;  // The page is gone.
+      if (!next(bytes)) {
+        sink.done();
+        return true;
+      }
+      return bytes.empty() || sink.write(bytes.data(), bytes.size());
+    });
   });
 }
 

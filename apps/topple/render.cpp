@@ -7,7 +7,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <random>
 #include <thread>
 
 #include "film_browser.h"
@@ -46,12 +45,6 @@ std::string check_size(const std::string& text) {
   const auto in_range = [](int side) { return side >= kLeastSide && side <= kMostSide; };
   const bool good = size && in_range(size->first) && in_range(size->second);
   return good ? "" : "'" + text + "' is not WIDTHxHEIGHT with sides from 16 to 7680 pixels";
-}
-
-/// So that no other page can send a film here.
-std::string make_token() {
-  std::random_device device;
-  return formatted("%08x%08x%08x%08x", device(), device(), device(), device());
 }
 
 /// What the page has handed over so far; written by the server's thread.

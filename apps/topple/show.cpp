@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "interrupt.h"
+#include "native_run.h"
 #include "page_server.h"
 #include "recording_bytes.h"
 #include "source.h"
@@ -70,10 +71,13 @@ class ShowVerb final : public Verb {
     if (!summary) {
       return summary.error();
     }
+    const NativeRuns runs(options_.threads);
+    runs.offer(*site);
     Result<PageServer> server = PageServer::listen(std::move(*site), port_);
     if (!server) {
       return complain(server.error(), kFailed);
     }
+    runs.serve(*server);
     std::printf("%s\nOpen %s (Ctrl-C ends it)\n", summary->c_str(), server->address().c_str());
     std::fflush(stdout);
     if (!no_browser_ && has_desktop()) {

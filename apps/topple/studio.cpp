@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "interrupt.h"
+#include "native_run.h"
 #include "page_server.h"
 #include "text.h"
 #include "verb.h"
@@ -33,8 +34,11 @@ class StudioVerb final : public Verb {
 
  private:
   int serve(Site site) const {
+    const NativeRuns runs(1);
+    runs.offer(site);
     Result<PageServer> server = PageServer::listen(std::move(site), port_);
     if (!server) return complain(server.error(), kFailed);
+    runs.serve(*server);
     std::printf("Open %s (Ctrl-C ends it)\n", server->address().c_str());
     std::fflush(stdout);
     return server->serve_until(interrupted) ? kDone : complain("The server stopped: this machine's network gave up.", kFailed);

@@ -1,7 +1,7 @@
 /** What the page is doing: drawing, watching or comparing; what is open, where it came from, and how one becomes the other. */
 
 import { hashWords, readFragment } from './draw/link.ts';
-import type { Studio } from './draw/studio.svelte.ts';
+import { toldByProgram, type Studio } from './draw/studio.svelte.ts';
 import type { Finished } from './engine/client.ts';
 import type { Mode } from './page_interface.ts';
 import { openRecording } from './player/opening.ts';
@@ -63,7 +63,14 @@ export class Session {
   async begin(): Promise<void> {
     this.stage.open(emptyRecording(), this.screen.canvas(), this.screen.theme());
     this.screen.fit();
-    if (!(await this.openFragment())) this.open({ url: new URL('recording.topple', document.baseURI).href });
+    if (await this.openFragment()) return;
+    if (this.alone) await this.beginDrawing();
+    else this.open({ url: new URL('recording.topple', document.baseURI).href });
+  }
+
+  /** The program serves the page without a recording: one need not ask. */
+  private get alone(): boolean {
+    return toldByProgram()?.dataset.recording === 'no';
   }
 
   open(order: Order): void {
@@ -100,6 +107,7 @@ export class Session {
   }
 
   async fetchSummary(): Promise<void> {
+    if (this.alone) return;
     try {
       const answer = await fetch('summary.json');
       if (answer.ok && answer.status === 200) this.player.summary = (await answer.json()) as Summary;

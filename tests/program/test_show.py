@@ -134,6 +134,49 @@ class Show(ProgramTest):
         self.serve(self.record(name="second"))
         self.assertNotEqual(self.port, first)
 
+    def order(self, path, body, **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE_S)
+        connection.request("POST", path, body=body, headers=headers)
+        response = connection.getresponse()
+        response.body = response.read()
+        connection.close()
+        return response
+
+    def serve_with_orders(self):
+        (self.page / "index.html").write_text("<!doctype html><html><head><title>Topple</title></head></html>")
+        self.serve(self.record())
+        told = re.search(r'<meta name="topple-native" content="([0-9a-f]{32}/run)" data-bricks="3000" data-recording="yes" />', self.ask("/").body.decode())
+        self.assertTrue(told)
+        return "/" + told.group(1)
+
+    def test_a_layout_that_its_page_orders_is_run_and_sent_as_a_recording(self):
+        path = self.serve_with_orders()
+        answer = self.order(path, ROW, Origin=f"http://127.0.0.1:{self.port}")
+        self.assertEqual((answer.status, answer.getheader("Content-Type")), (200, "application/octet-stream"))
+        ordered = self.folder / "ordered.topple"
+        ordered.write_bytes(answer.body)
+        self.assertEqual(topple("replay", ordered).returncode, 0)
+        expected = json.loads(topple("run", self.write("row.toml", ROW), "--json").stdout)["hash"]
+        self.assertIn(expected, topple("replay", ordered).stdout)
+        self.assertEqual(self.order(path, ROW).status, 200)  # the first has let go
+
+    def test_orders_of_others_are_refused(self):
+        path = self.serve_with_orders()
+        port = self.port
+        for origin in ["https://example.org", f"http://127.0.0.1:{port + 1}", "null", f"http://127.0.0.1:{port}.example.org"]:
+            self.assertEqual(self.order(path, ROW, Origin=origin).status, 403, origin)
+        self.assertEqual(self.order(path, ROW, Host="example.org").status, 403)
+        self.assertEqual(self.order("/" + "0" * 32 + "/run", ROW).status, 405)
+        self.assertIn(self.order(path[: -len("run")] + "other", ROW).status, [404, 405])
+        self.assertEqual(self.ask(path).status, 404)
+
+    def test_a_bad_layout_is_answered_with_all_its_problems(self):
+        path = self.serve_with_orders()
+        answer = self.order(path, "[[row]]\ncount = 0\ngap_mm = -1\n")
+        self.assertEqual(answer.status, 422)
+        self.assertIn("layout.toml:2:9: row.0.count", answer.body.decode())
+        self.assertIn("layout.toml:3:10: row.0.gap_mm", answer.body.decode())
+
     def test_ctrl_c_ends_it_well(self):
         process = self.serve(self.record())
         self.ask("/")

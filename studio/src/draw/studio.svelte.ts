@@ -422,7 +422,7 @@ export class Studio {
         this.runTime = time;
         watch.progress(time, arrived);
       },
-    });
+    }, nativeFor(this.layout?.bricks ?? 0));
     this.stopRun = run.stop;
     try {
       const finished = await run.finished;
@@ -441,6 +441,17 @@ export class Studio {
   stop(): void {
     this.stopRun?.();
   }
+}
+
+/** What the program that serves the page has written into its head: null where the page comes from elsewhere. */
+export function toldByProgram(): HTMLMetaElement | null {
+  return document.querySelector<HTMLMetaElement>('meta[name=topple-native]');
+}
+
+/** Where the program that serves the page runs long layouts; empty: the page comes from elsewhere, or the layout is short. */
+function nativeFor(bricks: number): string {
+  const told = toldByProgram();
+  return told && bricks >= Number(told.dataset.bricks) ? told.content : '';
 }
 
 /** The same layout by another model, without the settings that only the first one knows. */

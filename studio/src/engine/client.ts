@@ -103,12 +103,15 @@ export class EngineClient {
     this.send({ kind: 'read', id: this.reading, source });
   }
 
-  /** @returns The run's end, and how to stop it: then it ends where it is. */
-  run(source: Source, watch?: RunWatch): { finished: Promise<Finished>; stop: () => void } {
+  /**
+   * @param native An address of the program that serves the page, which then runs the layout in this engine's place.
+   * @returns The run's end, and how to stop it: then it ends where it is.
+   */
+  run(source: Source, watch?: RunWatch, native = ''): { finished: Promise<Finished>; stop: () => void } {
     const id = this.next++;
     const finished = new Promise<Finished>((resolve, reject) => {
       this.waiting.set(id, { resolve: resolve as (value: never) => void, reject, ...(watch ? { watch } : {}) });
-      this.send({ kind: 'run', id, source });
+      this.send({ kind: 'run', id, source, ...(native ? { native: new URL(native, document.baseURI).href } : {}) });
     });
     return { finished, stop: () => this.send({ kind: 'stop', id }) };
   }

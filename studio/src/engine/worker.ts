@@ -18,7 +18,8 @@ export interface Source {
 export type EngineOrder =
   | { kind: 'load'; url: string }
   | { kind: 'read'; id: number; source: Source }
-  | { kind: 'run'; id: number; source: Source }
+  /** `native`: an address of the program that serves the page; it runs the layout in this engine's place. */
+  | { kind: 'run'; id: number; source: Source; native?: string }
   | { kind: 'stop'; id: number };
 
 export type EngineReport =
@@ -52,7 +53,8 @@ self.onmessage = (message: MessageEvent<EngineOrder>) => {
   else if (order.kind === 'read') void attempt(order.id, () => read(order.id, order.source));
   else {
     running = -1;
-    queue = queue.then(() => attempt(order.id, () => run(order.id, order.source)));
+    const { id, source, native } = order;
+    queue = queue.then(() => attempt(id, () => (native ? runNative(id, source, native) : run(id, source))));
   }
 };
 
@@ -121,10 +123,7 @@ async function run(id: number, source: Source): Promise<void> {
     if (performance.now() - looked > kLookEvery) {
       looked = performance.now();
       growing.add(c.collect(false));
-      if (growing.worthALook) {
-        const recording = growing.look(false);
-        if (recording.duration > 0) tellLoaded(recording, (loaded) => ({ kind: 'grown', id, loaded, over: false }));
-      }
+      lookAt(id, growing);
       tell({ kind: 'progress', id, time: c.time, arrived: c.arrived });
     }
     await breathe();
@@ -133,6 +132,42 @@ async function run(id: number, source: Source): Promise<void> {
   const bytes = growing.bytes();
   const hash = c.hash;
   tellLoaded(growing.look(true), (loaded) => ({ kind: 'over', id, loaded, hash, bytes, cost: computed / 1000 }));
+}
+
+function lookAt(id: number, growing: GrowingRecording): void {
+  if (!growing.worthALook) return;
+  const recording = growing.look(false);
+  if (recording.duration > 0) tellLoaded(recording, (loaded) => ({ kind: 'grown', id, loaded, over: false }));
+}
+
+/** The same recording, from the program that serves the page: it comes in pieces as the run goes on. A stop ends both. */
+async function runNative(id: number, source: Source, address: string): Promise<void> {
+  const began = performance.now();
+  const stop = new AbortController();
+  const answer = await fetch(address, { method: 'POST', body: source.text, headers: { 'content-type': 'text/plain' }, signal: stop.signal });
+  if (answer.status === 422) throw new LayoutError(await answer.text());
+  if (!answer.ok || !answer.body) throw new Error(`the program answers ${answer.status}: ${await answer.text()}`);
+  const reader = (answer.body as ReadableStream<Uint8Array<ArrayBuffer>>).getReader();
+  const growing = new GrowingRecording();
+  running = id;
+  let looked = began;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    growing.add(value);
+    if (running !== id) {
+      stop.abort();
+      break;
+    }
+    if (performance.now() - looked < kLookEvery) continue;
+    looked = performance.now();
+    lookAt(id, growing);
+    tell({ kind: 'progress', id, time: growing.reached, arrived: 0 });
+  }
+  const recording = growing.look(true);
+  const { hash } = recording.end;
+  const bytes = growing.bytes();
+  tellLoaded(recording, (loaded) => ({ kind: 'over', id, loaded, hash, bytes, cost: (performance.now() - began) / 1000 }));
 }
 
 function tellLoaded(recording: Recording, report: (loaded: Loaded) => EngineReport): void {

@@ -1,21 +1,40 @@
 /** Heat: bricks coloured by when the wave reached them, how fast it was there, or how hard they were hit; those without a value are grey. */
 
 import type { Loaded } from '../recording/load.ts';
-import { EventKind } from '../recording/types.ts';
-import { speedAt } from '../recording/wave.ts';
+import { EventKind, type Recording } from '../recording/types.ts';
+import { runDistances } from '../recording/wave.ts';
 
 export type HeatSort = 'arrival' | 'speed' | 'impulse';
 
 /** Stops of a map that is even to the eye and safe for the colour-blind (after cividis). */
 const kHeat = [[0, 34, 78], [66, 78, 108], [124, 123, 120], [187, 173, 108], [254, 232, 56]];
 
-function valuesOf({ recording, front }: Loaded, sort: HeatSort): Float64Array {
+/** How many strikers back the speed of the wave at a brick is taken over. */
+const kBack = 3;
+
+/** Of the wave where it passed each brick [m/s], along whichever branch it came. */
+function speedsOf(recording: Recording): Float64Array {
   const { events, bricks } = recording;
-  const values = new Float64Array(bricks.count).fill(NaN);
-  if (sort === 'speed') {
-    for (let i = 0; i < front.brick.length; i++) values[front.brick[i]] = speedAt(front, i);
-    return values;
+  const along = runDistances(recording);
+  const striker = new Int32Array(bricks.count).fill(-1);
+  const arrival = new Float64Array(bricks.count).fill(NaN);
+  for (let i = 0; i < events.count; i++) {
+    const brick = events.brick[i];
+    if (events.kind[i] === EventKind.struck && striker[brick] < 0 && events.by[i] < bricks.count) striker[brick] = events.by[i];
+    if (events.kind[i] === EventKind.arrived && Number.isNaN(arrival[brick])) arrival[brick] = events.time[i];
   }
+  return Float64Array.from({ length: bricks.count }, (_, brick) => {
+    let from = brick;
+    for (let k = 0; k < kBack && striker[from] >= 0; k++) from = striker[from];
+    const spent = arrival[brick] - arrival[from];
+    return spent > 0 ? (along[brick] - along[from]) / spent : NaN;
+  });
+}
+
+function valuesOf({ recording }: Loaded, sort: HeatSort): Float64Array {
+  const { events, bricks } = recording;
+  if (sort === 'speed') return speedsOf(recording);
+  const values = new Float64Array(bricks.count).fill(NaN);
   for (let i = 0; i < events.count; i++) {
     const brick = events.brick[i];
     if (sort === 'arrival' && events.kind[i] === EventKind.arrived) values[brick] = events.time[i];

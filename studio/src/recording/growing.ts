@@ -11,6 +11,8 @@ export class GrowingRecording {
   private pieces: Uint8Array<ArrayBuffer>[] = [];
   private size = 0;
   private seen = 0;
+  /** Up to when it could be played at the last look [s]. */
+  reached = 0;
 
   add(bytes: Uint8Array<ArrayBuffer>): void {
     this.pieces.push(bytes);
@@ -29,6 +31,7 @@ export class GrowingRecording {
     this.seen = this.size;
     const recording = decodeRecording(all);
     if (!over) recording.duration = settledTime(recording);
+    this.reached = recording.duration;
     return recording;
   }
 

@@ -26,7 +26,7 @@ export function lastNotOver(values: Float64Array, limit: number): number {
 }
 
 /** Distance of each brick along the run [m]: that of the brick which struck it first, and the way between their feet. NaN: never struck. */
-function runDistances(recording: Recording): Float64Array {
+export function runDistances(recording: Recording): Float64Array {
   const { bricks, events } = recording;
   const distance = new Float64Array(bricks.count).fill(NaN);
   for (let i = 0; i < events.count; i++) {
