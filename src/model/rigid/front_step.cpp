@@ -366,7 +366,7 @@ void Front::wake_struck(double now) {
       if (a_moves == b_moves) continue;
       const auto still = static_cast<std::size_t>(a_moves ? touch.b : touch.a);
       const auto mover = static_cast<std::size_t>(a_moves ? touch.a : touch.b);
-      if (members_[still].ghost || !is_hit(touch, still)) continue;
+      if (!is_hit(touch, still)) continue;
       struck_now_.push_back({bodies_[still].id, bodies_[mover].id});
       wake(bodies_[still].id, now);
       settle_on_floor(static_cast<int>(still));

@@ -10,9 +10,6 @@ namespace topple::rigid {
 
 namespace {
 
-// Off the plane by less than this, as a fraction of the thickness or in radians, a brick is in it: rounding of places and headings.
-constexpr double kInPlane = 1e-7;
-
 // A brick is borne by another one where the normal of their contact points up by more than this.
 constexpr double kLeans = 0.1;
 
@@ -27,11 +24,7 @@ double displacement(const PlaneBrick& brick, const PlaneVec& from) {
 
 }  // namespace
 
-PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(world, number) {
-  const Brick& brick = world.layout.bricks[static_cast<std::size_t>(first)];
-  const SinCos turn = sin_cos(brick.heading);
-  plane_ = {brick.foot, {turn.cos, turn.sin, 0.0}, {-turn.sin, turn.cos, 0.0}};
-}
+PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(world, number), plane_(plane_of_row(world.layout, first)) {}
 
 int PlaneFront::place_of(BrickId brick) const {
   if (brick < 0 || !owns(brick)) return -1;
@@ -51,32 +44,6 @@ Pose PlaneFront::pose_of(const PlaneBrick& brick) const {
   const SinCos half = sin_cos(0.5 * brick.box.place.turn);
   const Quat turn{half.cos, half.sin * plane_.across.x, half.sin * plane_.across.y, 0.0};
   return {in_world(brick.box.place.x, brick.box.place.z) + brick.lateral * plane_.across, turn * brick.upright};
-}
-
-// Where a brick that does not move is in this plane. `half_width` is how far the bricks of the plane reach to its sides.
-PlaneFront::InPlane PlaneFront::locate(BrickId brick, double half_width) const {
-  const auto at = static_cast<std::size_t>(brick);
-  const Brick& put = world_.layout.bricks[at];
-  const BrickKind& kind = world_.layout.kinds[put.kind];
-  const Pose& pose = world_.pose[at];
-  const Vec3 apart = pose.position - plane_.origin;
-  const double lateral = dot(apart, plane_.across);
-  const double thin = std::min({kind.height, kind.width, kind.thickness});
-  InPlane out;
-  const SinCos heading = sin_cos(put.heading);
-  const bool parallel = std::abs(heading.sin * plane_.along.x - heading.cos * plane_.along.y) < kInPlane;
-  const Quat turned = pose.orientation * conjugate(standing_pose(world_.layout, brick).orientation);
-  const double about = turned.x * plane_.across.x + turned.y * plane_.across.y;
-  const double off = std::abs(turned.x * plane_.along.x + turned.y * plane_.along.y) + std::abs(turned.z);
-  out.lies = parallel && std::abs(lateral) < kInPlane * thin && off < kInPlane;
-  out.place = {dot(apart, plane_.along), pose.position.z, 2.0 * arc_tangent(turned.w < 0.0 ? -about : about, std::abs(turned.w))};
-  if (!out.lies) {
-    const Vec3 half = half_extents(kind);
-    const Vec3 local = rotate(conjugate(pose.orientation), plane_.across);
-    const double reach = std::abs(local.x) * half.x + std::abs(local.y) * half.y + std::abs(local.z) * half.z;
-    out.misses = std::abs(lateral) > half_width + reach + world_.tolerances.margin * thin;
-  }
-  return out;
 }
 
 int PlaneFront::add(BrickId brick, const PlaneVec& place) {
@@ -99,6 +66,8 @@ int PlaneFront::add(BrickId brick, const PlaneVec& place) {
   added.time_scale = std::sqrt(std::max({kind.height, kind.width, kind.thickness}) / world_.gravity);
   added.upright = standing_pose(world_.layout, brick).orientation;
   added.lateral = dot(world_.pose[at].position - plane_.origin, plane_.across);
+  // One that came to rest a little out of the plane stays so.
+  if (world_.phase[at] == Phase::resting) added.upright = in_plane(plane_, world_.layout, brick, world_.pose[at]).upright;
   added.id = brick;
   added.kind = put.kind;
   half_width_ = std::max(half_width_, 0.5 * size.across);
@@ -111,7 +80,10 @@ int PlaneFront::add(BrickId brick, const PlaneVec& place) {
 
 void PlaneFront::wake(BrickId brick, double /*time*/) {
   int place = place_of(brick);
-  if (place < 0) place = add(brick, locate(brick, 0.0).place);
+  if (place < 0) {
+    leaves_plane_ = leaves_plane_ || !put_down_in(plane_, world_.layout, brick);
+    place = add(brick, locate_in(plane_, world_, brick, 0.0).place);
+  }
   if (bricks_[static_cast<std::size_t>(place)].moving) return;
   ledger_.woken.push_back(brick);
   PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
@@ -162,12 +134,12 @@ void PlaneFront::list_neighbours(int place) {
     if (other == id) continue;
     int there = place_of(other);
     if (there < 0) {
-      const double reach = 1.5 * radius + norm(half_extents(world_.layout.kind_of(other)));
-      const Vec3 apart = world_.pose[static_cast<std::size_t>(other)].position - centre;
       const std::int32_t front = world_.front[static_cast<std::size_t>(other)];
-      // One that moves may be elsewhere than where it stood.
-      if (front == kNoFront && dot(apart, apart) > reach * reach) continue;
-      const InPlane found = locate(other, half_width_);
+      // Of a brick of another front only the place where that front listed it is known.
+      const double reach = (front == kNoFront ? 1.5 : 1.6) * radius + norm(half_extents(world_.layout.kind_of(other)));
+      const Vec3 apart = world_.pose[static_cast<std::size_t>(other)].position - centre;
+      if (dot(apart, apart) > reach * reach) continue;
+      const InPlane found = locate_in(plane_, world_, other, half_width_);
       if (found.misses) continue;
       if (front != kNoFront) {
         meet(front);
@@ -355,6 +327,39 @@ void PlaneFront::disband() {
 bool PlaneFront::moves(BrickId brick) const {
   const int place = place_of(brick);
   return place >= 0 && bricks_[static_cast<std::size_t>(place)].moving;
+}
+
+// Bricks that moved freely go on in the plane; what they have left it by stays as it is.
+void PlaneFront::adopt(std::span<const HandedBrick> bricks) {
+  for (const HandedBrick& handed : bricks) {
+    const PlanePose apart = in_plane(plane_, world_.layout, handed.brick, handed.pose);
+    const int place = add(handed.brick, apart.place);
+    PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+    brick.upright = apart.upright;
+    brick.lateral = apart.lateral;
+    brick.velocity = {dot(handed.velocity, plane_.along), handed.velocity.z, dot(handed.angular_velocity, plane_.across)};
+    brick.listed_at = apart.place;
+    brick.moving = true;
+    brick.quiet = handed.quiet;
+    brick.pushed = handed.pushed;
+    brick.landed = handed.landed;
+    ++moving_;
+    PlaneTouch floor;
+    floor.a = place;
+    floor.thin = brick.thin;
+    const Surface& surface = world_.layout.kinds[brick.kind].surface;
+    floor.friction = surface.floor_friction;
+    floor.restitution = surface.floor_restitution;
+    touch_floor(brick.box, world_.tolerances.margin * brick.thin, floor.now);
+    for (int k = 0; k < floor.now.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      floor.memory[at].active = floor.now.points[at].separation < world_.tolerances.touching * brick.thin;
+    }
+    touches_.push_back(floor);
+  }
+  for (const HandedBrick& handed : bricks) list_neighbours(place_of(handed.brick));
+  order();
+  for (const HandedBrick& handed : bricks) mark_borne_by(place_of(handed.brick));
 }
 
 // It joins the other front before the next step, and hands over only what it owns.

@@ -6,16 +6,10 @@
 #include <vector>
 
 #include "model/rigid/plane_solver.h"
+#include "model/rigid/row_plane.h"
 #include "model/rigid/wave.h"
 
 namespace topple::rigid {
-
-/// The plane of a row: mirror images about it are the same, so nothing ever moves out of it.
-struct RowPlane {
-  Vec3 origin;  ///< [m]
-  Vec3 along;   ///< The way the row heads; horizontal, unit.
-  Vec3 across;  ///< To its left.
-};
 
 struct PlaneBrick {
   PlaneBox box;
@@ -86,18 +80,14 @@ class PlaneFront final : public Wave {
   bool general() const override { return false; }
   void disband() override;
 
+  /// Goes on with what another kind of front hands over; before anything else.
+  void adopt(std::span<const HandedBrick> bricks);
   /// Everything that moves, for another kind of front to go on with; this one ends.
   void hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveForce>& forces);
 
  private:
   bool moves(BrickId brick) const override;
   void lose(BrickId brick) override;
-  struct InPlane {
-    bool lies = false;    ///< In the plane.
-    bool misses = false;  ///< Its width does not reach any of the plane's bricks.
-    PlaneVec place;
-  };
-  InPlane locate(BrickId brick, double half_width) const;
   int place_of(BrickId brick) const;
   int add(BrickId brick, const PlaneVec& place);
   void list_neighbours(int place);

@@ -50,10 +50,13 @@ class RigidModel final : public Model {
   void plan_pushes();
   void wake_all();
   void begin_pushes(double end);
+  std::size_t free_number();
   Wave& front_of(BrickId brick);
   void join(std::size_t number);
   Front& general(std::size_t number);
   void join_fronts();
+  void part_fronts();
+  void straighten(std::size_t number, BrickId row);
   void dismiss_those_at_rest();
   void plan_turns();
   void advance_fronts(double begin);
@@ -94,13 +97,18 @@ void RigidModel::wake_all() {
   }
 }
 
+std::size_t RigidModel::free_number() {
+  const auto free = std::find(fronts_.begin(), fronts_.end(), nullptr);
+  const auto number = static_cast<std::size_t>(free - fronts_.begin());
+  if (free == fronts_.end()) fronts_.emplace_back();
+  return number;
+}
+
 Wave& RigidModel::front_of(BrickId brick) {
   const std::int32_t number = world_.front[static_cast<std::size_t>(brick)];
   if (number != kNoFront) return *fronts_[static_cast<std::size_t>(number)];
-  const auto free = std::find(fronts_.begin(), fronts_.end(), nullptr);
-  const auto at = static_cast<std::size_t>(free - fronts_.begin());
-  if (free == fronts_.end()) fronts_.emplace_back();
-  if (world_.stacked || world_.balls) {
+  const std::size_t at = free_number();
+  if (!put_down_in(plane_of_row(world_.layout, brick), world_.layout, brick)) {
     fronts_[at] = std::make_unique<Front>(world_, static_cast<std::int32_t>(at));
   } else {
     fronts_[at] = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(at), brick);
@@ -142,6 +150,7 @@ void RigidModel::join(std::size_t number) {
     const auto other = static_cast<std::size_t>(met[i]);
     if (other == number || fronts_[other] == nullptr) continue;
     front.absorb(general(other));
+    front.enter_all();
     fronts_[other].reset();
     met.insert(met.end(), front.met().begin(), front.met().end());
   }
@@ -153,6 +162,32 @@ void RigidModel::join_fronts() {
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     if (fronts_[i] != nullptr && fronts_[i]->must_join()) join(i);
   }
+}
+
+// Parts of a front that no longer reach each other become fronts of their own, and straight rows go on in their plane.
+void RigidModel::part_fronts() {
+  for (std::size_t i = 0; i < fronts_.size(); ++i) {
+    if (fronts_[i] == nullptr || !fronts_[i]->general()) continue;
+    auto* front = static_cast<Front*>(fronts_[i].get());
+    if (!front->may_part()) continue;
+    for (int parts = front->find_parts(); parts > 1; --parts) {
+      const std::size_t number = free_number();
+      auto part = std::make_unique<Front>(world_, static_cast<std::int32_t>(number));
+      front->give_part(parts - 1, *part);
+      fronts_[number] = std::move(part);
+    }
+    const BrickId row = front->row_brick();
+    if (row != kNoBrick) straighten(i, row);
+  }
+}
+
+void RigidModel::straighten(std::size_t number, BrickId row) {
+  std::vector<HandedBrick> bricks;
+  static_cast<Front&>(*fronts_[number]).hand_over(bricks);
+  auto plane = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(number), row);
+  plane->adopt(bricks);
+  plane->enter_all();
+  fronts_[number] = std::move(plane);
 }
 
 void RigidModel::dismiss_those_at_rest() {
@@ -206,12 +241,13 @@ void RigidModel::settle() {
   for (const Turn& turn : turns_) turn.front->enter_changes();
 }
 
-// One step: begin the pushes, join what has met, dismiss what rests, advance every front, let all know what each did, gather what
-// happened, check that it is finite.
+// One step: begin the pushes, join what has met, part what no longer reaches each other, dismiss what rests, advance every front, let all
+// know what each did, gather what happened, check that it is finite.
 Status RigidModel::step() {
   const double begin = static_cast<double>(count_) * step_;
   begin_pushes(begin + step_);
   join_fronts();
+  part_fronts();
   dismiss_those_at_rest();
   plan_turns();
   advance_fronts(begin);

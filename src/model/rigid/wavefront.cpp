@@ -8,6 +8,11 @@ namespace topple::rigid {
 
 namespace {
 
+// How far beyond touching a brick lists others, as a share of its radius: it lists again before it has moved a third of that. Of a brick of
+// another front only the place where that front listed it is known.
+constexpr double kOwnSlack = 0.5;
+constexpr double kForeignSlack = 0.6;
+
 double thinnest(const Body& body) { return 2.0 * std::min({body.half.x, body.half.y, body.half.z}); }
 double longest(const Body& body) { return 2.0 * std::max({body.half.x, body.half.y, body.half.z}); }
 
@@ -21,8 +26,7 @@ double displacement(const Body& body, const Vec3& position, const Quat& orientat
 }  // namespace
 
 int Front::place_of(BrickId brick) const {
-  const auto at = static_cast<std::size_t>(brick);
-  if (world_.front[at] == kNoFront && (ledger_.taken.empty() || !ledger_.took(brick))) return -1;
+  if (!owns(brick)) return -1;
   const auto noted = static_cast<std::size_t>(world_.noted_place(brick));
   if (noted < bodies_.size() && bodies_[noted].id == brick) return static_cast<int>(noted);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -36,19 +40,29 @@ bool Front::moves(BrickId brick) const {
   return place >= 0 && members_[static_cast<std::size_t>(place)].moving;
 }
 
+// It joins the other front before the next step; until then what others read of this step stays as it is.
 void Front::lose(BrickId brick) {
-  const int place = place_of(brick);
-  if (place < 0) return;
-  Member& member = members_[static_cast<std::size_t>(place)];
-  Body& body = bodies_[static_cast<std::size_t>(place)];
-  if (member.moving) --moving_;
-  member.moving = false;
-  member.ghost = true;
-  body.velocity = {};
-  body.angular_velocity = {};
-  body.inverse_mass = 0.0;
-  body.inverse_inertia = Mat3{};
-  std::erase_if(touches_, [place](const Touch& touch) { return touch.b == kFloor && touch.a == place; });
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].id != brick || members_[i].lost) continue;
+    members_[i].lost = true;
+    if (members_[i].moving) --moving_;
+    members_[i].moving = false;
+  }
+}
+
+void Front::drop_lost() {
+  renamed_.assign(bodies_.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!members_[i].lost) continue;
+    any = true;
+    renamed_[i] = -1;
+  }
+  if (!any) return;
+  std::erase_if(touches_, [this](const Touch& touch) {
+    return members_[static_cast<std::size_t>(touch.a)].lost || (touch.b != kFloor && members_[static_cast<std::size_t>(touch.b)].lost);
+  });
+  keep_those(renamed_);
 }
 
 void Front::disband() {
@@ -70,13 +84,8 @@ int Front::add(BrickId brick) {
   member.time_scale = std::sqrt(longest(body) / world_.gravity);
   const Quat put_down = standing_pose(world_.layout, brick).orientation;
   member.local_up = rotate(conjugate(put_down), Vec3{0.0, 0.0, 1.0});
-  if (world_.front[at] == kNoFront || world_.front[at] == number_) {
-    ledger_.take(brick);
-    world_.note_place(brick, place);
-  } else {
-    member.ghost = true;
-    meet(world_.front[at]);
-  }
+  ledger_.take(brick);
+  world_.note_place(brick, place);
   bodies_.push_back(body);
   members_.push_back(member);
   return place;
@@ -120,7 +129,7 @@ void Front::wake_structure(BrickId brick) {
       if (touch.b == kFloor || !touch.bearing || (touch.a != place && touch.b != place)) continue;
       const auto other = static_cast<std::size_t>(touch.a == place ? touch.b : touch.a);
       const BrickId id = bodies_[other].id;
-      if (members_[other].moving || members_[other].ghost || members_[other].just_rested) continue;
+      if (members_[other].moving || members_[other].lost || members_[other].just_rested) continue;
       if (world_.phase[static_cast<std::size_t>(id)] != Phase::standing) continue;
       roused.push_back(id);
     }
@@ -169,9 +178,14 @@ void Front::list_neighbours(int place) {
     const bool known = there >= 0;
     const Vec3 position = known ? bodies_[static_cast<std::size_t>(there)].position : world_.pose[at].position;
     const Vec3 size = half_extents(world_.layout.kind_of(other));
-    const double reach = body.radius + norm(size) + 0.5 * body.radius;
+    const bool foreign = !known && world_.front[at] != kNoFront && world_.front[at] != number_;
+    const double reach = body.radius + norm(size) + (foreign ? kForeignSlack : kOwnSlack) * body.radius;
     const Vec3 apart = position - body.position;
     if (dot(apart, apart) > reach * reach) continue;
+    if (foreign) {
+      meet(world_.front[at]);
+      continue;
+    }
     if (!known) there = add(other);
     const int a = body.id < other ? place : there;
     const int b = body.id < other ? there : place;
@@ -221,14 +235,20 @@ void Front::drop_idle() {
     renamed[static_cast<std::size_t>(touch.a)] = 0;
     if (touch.b != kFloor) renamed[static_cast<std::size_t>(touch.b)] = 0;
   }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (renamed[i] < 0 && !members_[i].lost) ledger_.leave(bodies_[i].id);
+  }
+  keep_those(renamed);
+  may_part_ = true;
+}
+
+// Leaves out the bodies marked by -1; no touch may name them.
+void Front::keep_those(std::vector<int>& renamed) {
   int kept = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (renamed[i] < 0) {
-      if (!members_[i].ghost) ledger_.leave(bodies_[i].id);
-      continue;
-    }
+    if (renamed[i] < 0) continue;
     renamed[i] = kept;
-    if (!members_[i].ghost) world_.note_place(bodies_[i].id, kept);
+    if (!members_[i].lost) world_.note_place(bodies_[i].id, kept);
     if (static_cast<std::size_t>(kept) != i) {
       bodies_[static_cast<std::size_t>(kept)] = bodies_[i];
       members_[static_cast<std::size_t>(kept)] = members_[i];
@@ -265,7 +285,6 @@ void Front::wake_unsupported(double now) {
       if (a_moves == b_moves) continue;
       const auto mover = static_cast<std::size_t>(a_moves ? touch.a : touch.b);
       const auto still = static_cast<std::size_t>(a_moves ? touch.b : touch.a);
-      if (members_[still].ghost) continue;
       const double moved = displacement(bodies_[mover], touch.mark_position, touch.mark_orientation);
       if (moved < world_.tolerances.support * members_[still].thin) continue;
       wake(bodies_[still].id, now);
@@ -336,34 +355,20 @@ void Front::adopt(std::span<const HandedBrick> bricks, std::span<const ActiveFor
 }
 
 void Front::absorb(Front& other) {
+  drop_lost();
   for (std::size_t i = 0; i < other.bodies_.size(); ++i) {
     const auto id = static_cast<std::size_t>(other.bodies_[i].id);
-    const int ghost = place_of(other.bodies_[i].id);
-    if (other.members_[i].ghost || world_.front[id] != other.number_) {
-      // Either ours, or of a third front.
-      if (ghost < 0) {
-        bodies_.push_back(other.bodies_[i]);
-        members_.push_back(other.members_[i]);
-      }
-      continue;
-    }
-    // A ghost here is what the other front really has.
-    int place = ghost;
-    if (ghost >= 0) {
-      bodies_[static_cast<std::size_t>(ghost)] = other.bodies_[i];
-      members_[static_cast<std::size_t>(ghost)] = other.members_[i];
-    } else {
-      place = static_cast<int>(bodies_.size());
-      bodies_.push_back(other.bodies_[i]);
-      members_.push_back(other.members_[i]);
-    }
+    if (world_.front[id] != other.number_) continue;  // Lost to another one.
     world_.front[id] = number_;
-    world_.note_place(bodies_[static_cast<std::size_t>(place)].id, place);
+    world_.note_place(other.bodies_[i].id, static_cast<int>(bodies_.size()));
+    bodies_.push_back(other.bodies_[i]);
+    members_.push_back(other.members_[i]);
   }
   for (const Touch& theirs : other.touches_) {
     Touch touch = theirs;
     touch.a = place_of(other.bodies_[static_cast<std::size_t>(theirs.a)].id);
     if (theirs.b != kFloor) touch.b = place_of(other.bodies_[static_cast<std::size_t>(theirs.b)].id);
+    if (touch.a < 0 || (theirs.b != kFloor && touch.b < 0)) continue;
     const bool listed = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& t) { return t.a == touch.a && t.b == touch.b; });
     if (!listed) touches_.push_back(touch);
   }
@@ -371,6 +376,13 @@ void Front::absorb(Front& other) {
   forces_.insert(forces_.end(), other.forces_.begin(), other.forces_.end());
   events_.insert(events_.end(), other.events_.begin(), other.events_.end());
   for (const std::int32_t number : other.met_) meet(number);
+  // What was of the other front has not been listed until now.
+  const std::size_t count = bodies_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!members_[i].moving) continue;
+    world_.neighbours.moved(bodies_[i].id, members_[i].listed_at, bodies_[i].position);
+    list_neighbours(static_cast<int>(i));
+  }
   order_touches();
 }
 

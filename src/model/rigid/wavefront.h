@@ -24,7 +24,7 @@ struct Member {
   double tilt_slope = 0.0;      ///< Of the cosine, when the last drift began [1/s].
   double tilt_slope_end = 0.0;  ///< When it ended [1/s].
   bool moving = false;
-  bool ghost = false;   ///< Belongs to another front: stands still for this step.
+  bool lost = false;    ///< Another front has taken it in the same step.
   bool pushed = false;  ///< A force acts on it.
   bool landed = false;
   bool just_rested = false;  ///< In this step.
@@ -52,6 +52,17 @@ class Front final : public Wave {
   void adopt(std::span<const HandedBrick> bricks, std::span<const ActiveForce> forces);
   void clear_met() { met_.clear(); }
 
+  /// Whether something changed that may let a part of it go: a brick came to rest, or a pair went out of reach.
+  bool may_part() const { return may_part_; }
+  /// How many parts it has that list no brick in common, of those in which something moves. Numbers the parts.
+  int find_parts();
+  /// Hands one of those parts, from 1 on, to a front that has nothing yet.
+  void give_part(int part, Front& to);
+  /// A moving brick whose row all its moving bricks belong to, with nothing else in reach of that row's plane; else none.
+  BrickId row_brick() const;
+  /// Everything that moves, for a plane front to go on with; this one ends.
+  void hand_over(std::vector<HandedBrick>& bricks);
+
  private:
   bool moves(BrickId brick) const override;
   void lose(BrickId brick) override;
@@ -65,6 +76,8 @@ class Front final : public Wave {
   void list_neighbours(int place);
   void list_those_that_strayed();
   void drop_idle();
+  void drop_lost();
+  void keep_those(std::vector<int>& renamed);
   void order_touches();
   double part(double begin, double time, bool may_cut);
   void kick(double time);
@@ -97,6 +110,8 @@ class Front final : public Wave {
 
   int moving_ = 0;
   bool rested_ = false;  // Some brick came to rest since the lists were made.
+  bool may_part_ = false;
+  std::vector<int> part_of_;  // Of each body: its part, from 0 on.
   std::vector<Body> bodies_;
   std::vector<Member> members_;
   std::vector<Touch> touches_;

@@ -43,7 +43,10 @@ void World::enter(Ledger& ledger) {
     pose[at] = rest.pose;
     resting_energy += potential_energy(*this, rest.brick, rest.pose.position.z);
   }
-  for (const Ledger::Move& move : ledger.moves) neighbours.moved(move.brick, move.from, move.to);
+  for (const Ledger::Move& move : ledger.moves) {
+    neighbours.moved(move.brick, move.from, move.to);
+    pose[static_cast<std::size_t>(move.brick)].position = move.to;
+  }
   push_work += ledger.push_work;
   ledger.woken.clear();
   ledger.rested.clear();

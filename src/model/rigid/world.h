@@ -45,6 +45,7 @@ struct Tolerances {
   double horizon = 1.0;    ///< ...within this time...
   double patience = 0.2;   ///< ...and has done so for this long.
   double support = 1e-2;   ///< A resting brick wakes when what it leans on has moved by this.
+  double in_plane = 5e-2;  ///< A row that has become straight may be out of its plane by this.
   double load = 0.02;      ///< A brick that stands or rests wakes under this share of its weight.
   double velocity = 1e-5;  ///< The solver stops when velocities change by less, as a fraction of sqrt(gravity x height).
   int sweeps = 60;
@@ -57,7 +58,7 @@ struct World {
   const Layout& layout;
   Neighbours neighbours;
   std::vector<Phase> phase;
-  std::vector<Pose> pose;             ///< Of each brick that does not move.
+  std::vector<Pose> pose;             ///< Of each brick that does not move; of one that does, the place where it was listed last.
   std::vector<std::uint8_t> arrived;  ///< Whether the wave has been there.
   std::vector<std::int32_t> front;    ///< The front that a brick belongs to, moving or in its way.
   std::vector<std::int32_t> place;    ///< In the list of that front, as a hint: see note_place().

@@ -1,0 +1,75 @@
+#include "model/rigid/row_plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/trigonometry.h"
+
+namespace topple::rigid {
+
+namespace {
+
+// Off the plane by less than this, as a fraction of the thickness or in radians, a brick is in it: rounding of places and headings.
+constexpr double kInPlane = 1e-7;
+
+double thinnest(const BrickKind& kind) { return std::min({kind.height, kind.width, kind.thickness}); }
+
+bool heads_along(const RowPlane& plane, const Brick& brick) {
+  const SinCos heading = sin_cos(brick.heading);
+  return std::abs(heading.sin * plane.along.x - heading.cos * plane.along.y) < kInPlane;
+}
+
+}  // namespace
+
+RowPlane plane_of_row(const Layout& layout, BrickId brick) {
+  const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
+  const SinCos turn = sin_cos(put.heading);
+  return {put.foot, {turn.cos, turn.sin, 0.0}, {-turn.sin, turn.cos, 0.0}};
+}
+
+bool put_down_in(const RowPlane& plane, const Layout& layout, BrickId brick) {
+  const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
+  const BrickKind& kind = layout.kinds[put.kind];
+  return kind.shape == Shape::box && put.foot.z <= 0.0 && heads_along(plane, put) &&
+         std::abs(dot(put.foot - plane.origin, plane.across)) < kInPlane * thinnest(kind);
+}
+
+PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, const Pose& pose) {
+  const Quat turned = pose.orientation * conjugate(standing_pose(layout, brick).orientation);
+  const double about = turned.x * plane.across.x + turned.y * plane.across.y;
+  const double roll = turned.x * plane.along.x + turned.y * plane.along.y;
+  const Vec3 apart = pose.position - plane.origin;
+  PlanePose out;
+  out.place = {dot(apart, plane.along), pose.position.z, 2.0 * arc_tangent(turned.w < 0.0 ? -about : about, std::abs(turned.w))};
+  out.lateral = dot(apart, plane.across);
+  const SinCos half = sin_cos(0.5 * out.place.turn);
+  out.upright = Quat{half.cos, -half.sin * plane.across.x, -half.sin * plane.across.y, 0.0} * pose.orientation;
+  out.swing = 2.0 * std::sqrt(roll * roll + turned.z * turned.z);
+  return out;
+}
+
+InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, double half_width) {
+  const auto at = static_cast<std::size_t>(brick);
+  const Brick& put = world.layout.bricks[at];
+  const BrickKind& kind = world.layout.kinds[put.kind];
+  const Pose& pose = world.pose[at];
+  const PlanePose apart = in_plane(plane, world.layout, brick, pose);
+  const double thin = thinnest(kind);
+  const bool fits = kind.shape == Shape::box && put.foot.z <= 0.0 && heads_along(plane, put);
+  const bool rests = world.phase[at] == Phase::resting;
+  InPlane out;
+  out.lies = fits && std::abs(apart.lateral) < kInPlane * thin && apart.swing < kInPlane;
+  if (fits && rests) {
+    out.lies = std::abs(apart.lateral) + norm(half_extents(kind)) * apart.swing < world.tolerances.in_plane * thin;
+  }
+  out.place = apart.place;
+  if (!out.lies) {
+    const Vec3 half = half_extents(kind);
+    const Vec3 local = rotate(conjugate(pose.orientation), plane.across);
+    const double reach = std::abs(local.x) * half.x + std::abs(local.y) * half.y + std::abs(local.z) * half.z;
+    out.misses = std::abs(apart.lateral) > half_width + reach + world.tolerances.margin * thin;
+  }
+  return out;
+}
+
+}  // namespace topple::rigid

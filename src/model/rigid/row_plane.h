@@ -1,0 +1,40 @@
+/// The vertical plane of a straight row, and what lies in it.
+#pragma once
+
+#include "model/rigid/plane_contact.h"
+#include "model/rigid/world.h"
+
+namespace topple::rigid {
+
+/// The plane of a row: mirror images about it are the same, so nothing ever moves out of it.
+struct RowPlane {
+  Vec3 origin;  ///< [m]
+  Vec3 along;   ///< The way the row heads; horizontal, unit.
+  Vec3 across;  ///< To its left.
+};
+
+/// The plane in which a brick would fall.
+RowPlane plane_of_row(const Layout& layout, BrickId brick);
+
+/// Whether a brick was put down in this plane: a box on the floor, across it.
+bool put_down_in(const RowPlane& plane, const Layout& layout, BrickId brick);
+
+/// A pose taken apart: where it is in the plane, and what is left.
+struct PlanePose {
+  PlaneVec place;
+  double lateral = 0.0;  ///< [m]
+  Quat upright;          ///< The orientation without the turn in the plane.
+  double swing = 0.0;    ///< How far `upright` is turned away from the brick as put down [rad].
+};
+PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, const Pose& pose);
+
+/// Where a brick that does not move is in a plane.
+struct InPlane {
+  bool lies = false;    ///< In the plane; one that rests after it has moved freely, to Tolerances::in_plane.
+  bool misses = false;  ///< Its width does not reach any of the plane's bricks.
+  PlaneVec place;
+};
+/// `half_width` is how far the bricks of the plane reach to its sides [m].
+InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, double half_width);
+
+}  // namespace topple::rigid
