@@ -35,6 +35,7 @@ void touch_floor_with_ball(const Body& ball, double margin, Manifold& out) {
   out.reference = Reference::b;
   out.count = 0;
   const double height = ball.position.z - ball.half.x;
+  out.parted = height;
   if (height > margin) return;
   out.count = 1;
   out.points[0] = {ball.position - Vec3{0.0, 0.0, ball.half.x}, height, kFeature};
@@ -59,6 +60,7 @@ void touch_ball(const Body& a, const Body& b, double margin, Manifold& out) {
     reach = b.half.x;
   }
   const double separation = way.distance - reach;
+  out.parted = separation;
   if (separation > margin) return;
   out.normal = way.normal;
   out.count = 1;

@@ -85,8 +85,8 @@ void clip(const Polygon& in, const Vec3& normal, double offset, std::uint32_t pl
     if (d0 <= 0.0) out.add(from);
     if ((d0 <= 0.0) != (d1 <= 0.0)) {
       const double share = d0 / (d0 - d1);
-      const std::uint32_t inner = (d0 <= 0.0 ? from.tag : to.tag) & 15U;
-      out.add({from.position + share * (to.position - from.position), 16U * plane + inner});
+      // A plane cuts a convex polygon twice: on the way out and on the way in.
+      out.add({from.position + share * (to.position - from.position), 4U + 2U * plane + (d0 <= 0.0 ? 0U : 1U)});
     }
   }
 }
@@ -188,7 +188,8 @@ void touch_floor(const Body& a, double margin, Manifold& out) {
   out.count = 0;
   const Vec3 up = a.axes.r2;  // Height of each of the brick's axes.
   const double reach = std::abs(up.x) * a.half.x + std::abs(up.y) * a.half.y + std::abs(up.z) * a.half.z;
-  if (a.position.z - reach > margin) return;
+  out.parted = a.position.z - reach;
+  if (out.parted > margin) return;
   for (std::uint32_t corner = 0; corner < 8; ++corner) {
     const Vec3 local{(corner & 1U) != 0 ? a.half.x : -a.half.x, (corner & 2U) != 0 ? a.half.y : -a.half.y,
                      (corner & 4U) != 0 ? a.half.z : -a.half.z};
@@ -199,12 +200,16 @@ void touch_floor(const Body& a, double margin, Manifold& out) {
   }
 }
 
-void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifold& out) {
+void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out) {
   if (a.round || b.round) return touch_ball(a, b, margin, out);
   out.count = 0;
+  int& axis = out.axis;
   const BoxPair p = pair_up(a, b);
   const auto separation_on = [&p](int k) { return k < kFirstEdgeAxis ? face_separation(p, k) : edge_separation(p, k); };
-  if (axis >= 0 && separation_on(axis) > margin) return;
+  if (axis >= 0) {
+    out.parted = separation_on(axis);
+    if (out.parted > margin) return;
+  }
   // A face is kept, and preferred to an edge, unless another axis is clearly better: flips of the normal cost warm starts.
   const double thinnest = 2.0 * std::min(std::min({a.half.x, a.half.y, a.half.z}), std::min({b.half.x, b.half.y, b.half.z}));
   BestAxis best;
@@ -213,6 +218,7 @@ void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifol
     const double separation = separation_on(k);
     if (separation > margin) {
       axis = k;
+      out.parted = separation;
       return;
     }
     const double score = separation + (k == axis ? 1e-3 * thinnest : 0.0) - (k >= kFirstEdgeAxis ? 1e-2 * thinnest : 0.0);
@@ -222,6 +228,7 @@ void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifol
     }
   }
   axis = best.axis;
+  out.parted = best.separation;
   if (axis >= kFirstEdgeAxis) {
     edge_point(p, a, b, axis, best.separation, out);
   } else if (axis < 3) {

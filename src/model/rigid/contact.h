@@ -22,6 +22,8 @@ enum class Reference : std::uint8_t { a, b, edges };
 struct Manifold {
   Vec3 normal;  ///< From b to a, unit.
   Reference reference = Reference::b;
+  int axis = -1;        ///< Of two boxes: which of the 15 axes parted them, or gave the normal, so that most calls end early.
+  double parted = 0.0;  ///< Where there is no point: how far apart they are along that axis [m].
   int count = 0;
   std::array<TouchPoint, 8> points;
 };
@@ -29,8 +31,7 @@ struct Manifold {
 /// Points of a box (or a ball) and the floor z = 0 no farther than `margin` [m] apart; the normal is up and b is the floor.
 void touch_floor(const Body& a, double margin, Manifold& out);
 
-/// Points of two boxes (or balls) no farther than `margin` [m] apart. `axis` remembers from call to call which of the 15 axes parted the
-/// boxes, or gave the normal, so that most calls end early; it starts at -1.
-void touch_boxes(const Body& a, const Body& b, double margin, int& axis, Manifold& out);
+/// Points of two boxes (or balls) no farther than `margin` [m] apart; out.axis is read and set.
+void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out);
 
 }  // namespace topple::rigid

@@ -7,24 +7,27 @@
 
 namespace topple::rigid {
 
-/// One contact point, ready to be solved: velocities of the point in its own frame and what an impulse does to them.
+/// One contact point, ready to be solved. Its slip is the velocity of a's point against b's.
 struct ContactRow {
   int a = 0;
   int b = kFloor;
   int touch = 0;
   int point = 0;
-  Vec3 arm_a, arm_b;           // From the centres of mass to the point [m].
-  Vec3 normal, along, across;  // An orthonormal frame; the normal from b to a.
-  double bias = 0.0;           // Added to the normal velocity before it is held at or above zero [m/s].
-  double bias_along = 0.0, bias_across = 0.0;
-  double k_nn = 0.0, k_na = 0.0, k_nc = 0.0, k_aa = 0.0, k_ac = 0.0, k_cc = 0.0;  // Velocity per impulse [1/kg].
+  Vec3 arm_a, arm_b;  ///< From the centres of mass to the point [m].
+  Vec3 normal;        ///< From b to a, unit.
+  Vec3 bias;          ///< Added to the slip before the laws of contact hold [m/s].
   double friction = 0.0;
-  double floor_impulse = 0.0;           // The normal impulse is at least this [N s].
-  double n = 0.0, s = 0.0, t = 0.0;     // Impulses so far: normal, along, across [N s].
-  double n0 = 0.0, s0 = 0.0, t0 = 0.0;  // Of the first half step: counted for the limits, not applied again [N s].
+  double base = 0.0;                ///< Normal impulse that has been applied already and counts for friction [N s].
+  double normal_stiffness = 0.0;    ///< Impulse per velocity that is left: 1 / compliance [kg].
+  double tangent_stiffness = 0.0;   ///< [kg]
+  double normal_mass = 0.0;         ///< Impulse per velocity of the point along its normal, if nothing else touched [kg].
+  double mass = 0.0;                ///< The same across it [kg].
+  ContactState state;               ///< The guess, then the truth.
+  double n = 0.0;                   ///< Normal impulse: the guess, then the truth [N s].
+  Vec3 friction_impulse;            ///< On a: the same [N s].
 };
 
-/// Gives both bricks of a point an impulse, in its own frame [N s].
-void apply(std::span<Body> bodies, const ContactRow& row, double n, double s, double t);
+/// Gives both bricks of a point an impulse [N s]; `impulse` is that on a.
+void apply(std::span<Body> bodies, const ContactRow& row, const Vec3& impulse);
 
 }  // namespace topple::rigid

@@ -38,19 +38,15 @@ Event plain_event(EventKind kind, double time, BrickId brick, BrickId by) {
 
 }  // namespace
 
-void Front::note_arrivals(double begin, double time) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Member& member = members_[i];
-    if (!member.moving) continue;
-    const Body& body = bodies_[i];
-    const double before = member.tilt_cosine;
-    member.tilt_cosine = (body.axes * member.local_up).z;
-    std::uint8_t& arrived = world_.arrived[static_cast<std::size_t>(body.id)];
-    if (arrived != 0 || member.tilt_cosine > kArrivalCosine) continue;
-    arrived = 1;
-    const double share = crossing(before, time * member.tilt_slope, member.tilt_cosine, time * member.tilt_slope_end, kArrivalCosine);
-    events_.push_back(plain_event(EventKind::arrived, begin + share * time, body.id, kNoBrick));
-  }
+void Front::note_arrival(std::size_t place, double begin, double time, double slope_before, double slope_after) {
+  Member& member = members_[place];
+  const double before = member.tilt_cosine;
+  member.tilt_cosine = (bodies_[place].axes * member.local_up).z;
+  std::uint8_t& arrived = world_.arrived[static_cast<std::size_t>(bodies_[place].id)];
+  if (arrived != 0 || member.tilt_cosine > kArrivalCosine) return;
+  arrived = 1;
+  const double share = crossing(before, time * slope_before, member.tilt_cosine, time * slope_after, kArrivalCosine);
+  events_.push_back(plain_event(EventKind::arrived, begin + share * time, bodies_[place].id, kNoBrick));
 }
 
 void Front::note_struck(double now) {
@@ -60,7 +56,7 @@ void Front::note_struck(double now) {
     Vec3 point;
     Vec3 middle;
     int count = 0;
-    for (const ContactRow& row : solver_.rows()) {
+    for (const ContactRow& row : rows_) {
       if (row.b == kFloor) continue;
       const BrickId a = bodies_[static_cast<std::size_t>(row.a)].id, b = bodies_[static_cast<std::size_t>(row.b)].id;
       if (std::min(a, b) != std::min(struck.brick, struck.by) || std::max(a, b) != std::max(struck.brick, struck.by)) continue;
@@ -82,14 +78,14 @@ void Front::note_landed(double now) {
     Member& member = members_[static_cast<std::size_t>(touch.a)];
     if (member.landed) continue;
     const Body& body = bodies_[static_cast<std::size_t>(touch.a)];
-    for (int k = 0; k < touch.manifold.count; ++k) {
+    for (int k = 0; k < touch.now.count; ++k) {
       if (!touch.memory[static_cast<std::size_t>(k)].fresh) continue;
-      const Vec3 arm = touch.manifold.points[static_cast<std::size_t>(k)].position - body.position;
+      const Vec3 arm = touch.now.points[static_cast<std::size_t>(k)].position - body.position;
       // A corner of what was its top.
       if (dot(arm, body.axes * member.local_up) <= 0.0) continue;
       member.landed = true;
       Event event = plain_event(EventKind::landed, now, body.id, kNoBrick);
-      event.point = touch.manifold.points[static_cast<std::size_t>(k)].position;
+      event.point = touch.now.points[static_cast<std::size_t>(k)].position;
       events_.push_back(event);
       break;
     }
@@ -103,7 +99,7 @@ BrickId Front::supporter(int place) const {
   for (const Touch& touch : touches_) {
     if (touch.b == kFloor || (touch.a != place && touch.b != place)) continue;
     const bool is_a = touch.a == place;
-    const double lift = (is_a ? touch.manifold.normal.z : -touch.manifold.normal.z) * touch.impulse;
+    const double lift = (is_a ? touch.now.normal.z : -touch.now.normal.z) * touch.impulse;
     if (lift <= most) continue;
     most = lift;
     by = bodies_[static_cast<std::size_t>(is_a ? touch.b : touch.a)].id;
@@ -156,35 +152,20 @@ void Front::begin_push(const Push& push, double now) {
     event.force = force->force;
     event.point = body.position + body.axes * local;
   } else {
-    const auto& blow = std::get<ImpulsePush>(push.how);
-    const Vec3 local = rotate(back, Vec3{0.0, 0.0, blow.height - 0.5 * size.up} - (0.5 * size.along) * heading);
+    const auto& shove = std::get<ImpulsePush>(push.how);
+    const Vec3 local = rotate(back, Vec3{0.0, 0.0, shove.height - 0.5 * size.up} - (0.5 * size.along) * heading);
     const Vec3 arm = body.axes * local;
-    const Vec3 impulse = blow.impulse * heading;
+    const Vec3 impulse = shove.impulse * heading;
     const Vec3 speed_before = velocity_at(body, arm);
     body.velocity = body.velocity + body.inverse_mass * impulse;
     body.angular_velocity = body.angular_velocity + body.inverse_inertia * cross(arm, impulse);
-    take_blow();
+    blow(true);
     // Work of a blow: the impulse times the mean velocity of its point, before and after.
     ledger_.push_work += 0.5 * dot(impulse, speed_before + velocity_at(bodies_[static_cast<std::size_t>(place)], arm));
-    event.impulse = blow.impulse;
+    event.impulse = shove.impulse;
     event.point = body.position + arm;
   }
   events_.push_back(event);
-}
-
-// A blow: what touches takes part in it at once. Restitution only where a bounce lasts longer than a step; a slower hit keeps the points
-// together.
-void Front::take_blow() {
-  solver_.prepare_velocities(bodies_, touches_, world_.step);
-  const double slow = 0.5 * world_.gravity * world_.step;
-  bool bounces = false;
-  for (const ContactRow& row : solver_.rows()) {
-    const Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
-    bounces = bounces || (touch.restitution > 0.0 && touch.restitution * closing_speed(touch, row.point) > slow);
-  }
-  sweep();
-  if (bounces && solver_.restore(touches_)) sweep();
-  for (const ContactRow& row : solver_.rows()) touches_[static_cast<std::size_t>(row.touch)].impulse += row.n;
 }
 
 void Front::add_to(Hash& hash) const {
@@ -235,10 +216,10 @@ void Front::read(std::span<FreeMotion> out, Energy& energy) const {
 }
 
 void Front::read(std::vector<Contact>& out) const {
-  for (const ContactRow& row : solver_.rows()) {
+  for (const ContactRow& row : rows_) {
     const Body& a = bodies_[static_cast<std::size_t>(row.a)];
     const BrickId b = row.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(row.b)].id;
-    out.push_back({a.id, b, a.position + row.arm_a, row.normal, row.n0 + row.n});
+    out.push_back({a.id, b, a.position + row.arm_a, row.normal, row.n});
   }
 }
 

@@ -1,12 +1,13 @@
-// One step of a front: half a kick, a drift, half a kick, cut short at impacts.
+// One step of a front.
 //
-// This is RATTLE [Andersen1983] with one-sided constraints: the first half kick takes the impulses that keep every active point from
-// closing at the *end* of the drift, the second those that stop its approach there. Between impacts it is of second order. Impacts are
-// located inside the step (the drift is cut short where a new point touches), so the order holds across them and the front speed does not
-// lock in to the step.
+// Between impacts this is the leapfrog of Størmer and Verlet with one-sided constraints: bricks drift by their velocity in the middle of
+// the step, and one solution of all contacts takes it to the middle of the next one, so that no active point will be closer than touching
+// at that step's end (the curvature of its path included). Bilaterally that is SHAKE, which moves bricks as RATTLE does [Andersen1983] for
+// half the work; it is of second order. Of a turning brick it is the angular momentum that the drift keeps and the kick changes.
+// Impacts are located inside the step (the drift is cut short where a new point touches), so the order holds across them and the front
+// speed does not lock in to the step. After an impact the leapfrog starts anew with half a kick.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "model/rigid/ball.h"
 #include "model/rigid/wavefront.h"
@@ -15,30 +16,65 @@ namespace topple::rigid {
 
 namespace {
 
-// What a point knows of itself from before: that of the same feature, or else of the nearest point within `near` [m]. Faces that lie flush
-// on each other swap their features at every rounding, and a stack stands by what its points remember.
-const PointMemory* recall(const Touch& before, const TouchPoint& point, double near) {
-  const PointMemory* same = nullptr;
-  const PointMemory* found = nullptr;
-  double nearest = near * near;
-  for (int k = 0; k < before.manifold.count; ++k) {
-    const TouchPoint& old = before.manifold.points[static_cast<std::size_t>(k)];
-    const PointMemory& memory = before.memory[static_cast<std::size_t>(k)];
-    if (old.feature == point.feature) same = &memory;
-    const Vec3 apart = old.position - point.position;
-    if (dot(apart, apart) >= nearest) continue;
-    nearest = dot(apart, apart);
-    found = &memory;
-  }
-  return same != nullptr ? same : found;
+// What is left of a point's velocity under its impulse, as a share of what the impulse stops: of a point that begins to touch, and of one
+// that has carried a force before. There it is left of the change of the impulse alone, and goes within the next steps.
+constexpr double kCompliance = 1e-4;
+constexpr double kLoadedCompliance = 3e-3;
+// Sticking that changes from nothing to the limit of friction slips by this in the step, as a fraction of sqrt(gravity x height).
+constexpr double kCreep = 4e-4;
+
+Twist twist_of(const Body& body) { return {body.velocity, body.angular_velocity}; }
+
+void set_twist(Body& body, const Twist& twist) {
+  body.velocity = twist.velocity;
+  body.angular_velocity = twist.spin;
 }
 
-// Copies what two touches share.
-void inherit(const Touch& before, double near, Touch& now) {
-  for (int i = 0; i < now.manifold.count; ++i) {
-    const PointMemory* memory = recall(before, now.manifold.points[static_cast<std::size_t>(i)], near);
-    now.memory[static_cast<std::size_t>(i)] = memory != nullptr ? *memory : PointMemory{};
+// Velocity per impulse of a point: along the normal, and the sum over three directions at right angles [1/kg].
+struct Response {
+  double normal = 0.0, all = 0.0;
+};
+
+Response response(const Body& body, const Vec3& arm, const Vec3& normal) {
+  const Mat3& g = body.inverse_inertia;
+  const Vec3 turn = cross(arm, normal);
+  const double trace = g.r0.x + g.r1.y + g.r2.z;
+  return {body.inverse_mass + dot(turn, g * turn), 3.0 * body.inverse_mass + dot(arm, arm) * trace - dot(arm, g * arm)};
+}
+
+// A ball's point is always the nearest one, however it turns: for the distance it is as if it did not.
+Vec3 spin_of(const Body& body) { return body.round ? Vec3{} : body.angular_velocity; }
+
+Vec3 centripetal(const Body& body, const Vec3& arm) {
+  if (body.round) return {};
+  return cross(body.angular_velocity, cross(body.angular_velocity, arm)) + cross(body.gyroscopic, arm);
+}
+
+// Second derivative of the distance vector of the two material points while no force acts [m/s^2]. The normal turns with the body whose
+// face it is, which adds the second term.
+Vec3 curvature(const ContactRow& row, const Manifold& manifold, std::span<const Body> bodies) {
+  const Body& a = bodies[static_cast<std::size_t>(row.a)];
+  Vec3 bend = centripetal(a, row.arm_a);
+  if (row.b == kFloor) return bend;
+  const Body& b = bodies[static_cast<std::size_t>(row.b)];
+  bend = bend - centripetal(b, row.arm_b);
+  Vec3 turning = spin_of(b);
+  if (manifold.reference == Reference::a) turning = spin_of(a);
+  if (manifold.reference == Reference::edges) turning = 0.5 * (spin_of(a) + spin_of(b));
+  const Vec3 slip = (a.velocity + cross(spin_of(a), row.arm_a)) - (b.velocity + cross(spin_of(b), row.arm_b));
+  const double turned = 2.0 * dot(cross(turning, row.normal), slip);
+  return bend + turned * row.normal;
+}
+
+// Of one point, or of the nearest active one of its pair where the two are all but equally near: an edge that lies on a face lies on it
+// with both its ends, and does not rock from one to the other by less than what counts as touching.
+double flush_separation(const Touch& touch, int point, double flush) {
+  const double own = touch.now.points[static_cast<std::size_t>(point)].separation;
+  double least = own;
+  for (int k = 0; k < touch.now.count; ++k) {
+    if (touch.memory[static_cast<std::size_t>(k)].active) least = std::min(least, touch.now.points[static_cast<std::size_t>(k)].separation);
   }
+  return own - least < flush ? least : own;
 }
 
 }  // namespace
@@ -53,7 +89,6 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
   }
   list_those_that_strayed();
   wake_unsupported(begin);
-  find_touches(true);
   const double end = begin + world_.step;
   double now = begin;
   int cuts = 0;
@@ -61,6 +96,7 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
   while (true) {
     while (next < moments.size() && moments[next].time <= now) {
       const PushMoment& moment = moments[next++];
+      planned_for_ = 0.0;
       if (moment.push != nullptr) {
         begin_push(*moment.push, now);
       } else {
@@ -84,42 +120,80 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
 
 // One part of the step, of at most `time`; returns how long it was.
 double Front::part(double begin, double time, bool may_cut) {
-  const double whole = time;
-  int target = -1;
-  std::uint32_t feature = 0;
-  if (may_cut) {
-    bodies_before_ = bodies_;
-    touches_before_ = touches_;
+  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time);
+  try_drift(time);
+  const double cut = may_cut ? first_impact(time) : time;
+  accept_drift(begin, cut, time);
+  const double now = begin + cut;
+  struck_now_.clear();
+  const bool fresh = activate_new_points();
+  wake_struck(now);
+  const double next = cut < time ? time - cut : world_.step;
+  if (!struck_now_.empty() || (fresh && (cut < time || closes_fast()))) {
+    take_blow(time, next);
+    note_struck(now);
+    note_landed(now);
+  } else if (cut == time) {
+    leap(time);
+    wake_struck(now);
   }
-  for (int attempt = 0;; ++attempt) {
-    positions(time);
-    move(time);
-    find_touches(false);
-    if (!may_cut || attempt == 5) break;
-    double cut = time;
-    if (target < 0) {
-      cut = first_impact(time, target, feature);
-      if (target < 0) break;
-    } else {
-      // Newton's method on the distance of the point that was found first.
-      int earlier = -1;
-      std::uint32_t earlier_feature = 0;
-      cut = first_impact(time, earlier, earlier_feature);
-      if (earlier >= 0) {
-        target = earlier;
-        feature = earlier_feature;
-      } else {
-        cut = refine(time, whole, target, feature);
-        if (cut == time) break;
+  return cut;
+}
+
+// The points that take part; `time` is how long their forces act, for a first guess.
+void Front::make_rows(ContactState PointMemory::* guess, double time) {
+  rows_.clear();
+  const double creep = kCreep * std::sqrt(world_.gravity * world_.smallest);
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    const Touch& touch = touches_[i];
+    const Body& a = bodies_[static_cast<std::size_t>(touch.a)];
+    const Body* b = touch.b == kFloor ? nullptr : &bodies_[static_cast<std::size_t>(touch.b)];
+    for (int k = 0; k < touch.now.count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const PointMemory& memory = touch.memory[at];
+      if (!memory.active) continue;
+      ContactRow& row = rows_.emplace_back();
+      row.a = touch.a;
+      row.b = touch.b;
+      row.touch = static_cast<int>(i);
+      row.point = k;
+      row.normal = touch.now.normal;
+      row.arm_a = touch.now.points[at].position - a.position;
+      Response sum = response(a, row.arm_a, row.normal);
+      if (b != nullptr) {
+        row.arm_b = touch.now.points[at].position - b->position;
+        const Response other = response(*b, row.arm_b, row.normal);
+        sum = {sum.normal + other.normal, sum.all + other.all};
       }
+      row.normal_mass = 1.0 / sum.normal;
+      row.mass = 2.0 / (sum.all - sum.normal);
+      row.normal_stiffness = row.normal_mass / kCompliance;
+      row.tangent_stiffness = row.mass / kCompliance;
+      const double carries = world_.stacked ? 0.0 : time * memory.normal_force;
+      if (carries > 0.0) {
+        row.normal_stiffness = std::max(row.normal_mass / kLoadedCompliance, carries / (kLoadedCompliance * world_.gravity * world_.step));
+        if (touch.friction > 0.0) row.tangent_stiffness = std::min(row.tangent_stiffness, touch.friction * carries / creep);
+      }
+      row.friction = touch.friction;
+      row.state = memory.*guess;
+      row.n = time * memory.normal_force;
+      row.friction_impulse = time * memory.friction_force;
     }
-    bodies_ = bodies_before_;
-    touches_ = touches_before_;
-    time = cut;
   }
-  velocities(time, begin + time);
-  note_arrivals(begin, time);
-  return time;
+}
+
+// After a drift for `time` no active point will be closer than touching.
+void Front::set_bias(double time) {
+  const double slow = 0.5 * world_.gravity * world_.step;
+  for (ContactRow& row : rows_) {
+    const Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    const double separation = flush_separation(touch, row.point, world_.tolerances.touching * thinner(touch));
+    // An overlap goes within a step, but never so fast that it would throw the bricks apart.
+    const double gap = separation > 0.0 ? separation / time : std::max(separation / world_.step, -slow);
+    // What it carried before is there without any slip.
+    const Vec3 carried = (row.n / row.normal_stiffness) * row.normal + (1.0 / row.tangent_stiffness) * row.friction_impulse;
+    row.bias = gap * row.normal + (0.5 * time) * curvature(row, touch.now, bodies_) - carried;
+  }
 }
 
 void Front::kick(double time) {
@@ -145,245 +219,67 @@ void Front::slow_ball(std::size_t place, double time) {
   resist_rolling(ball, world_.layout.kinds[ball.kind].rolling_friction, world_.gravity, time);
 }
 
-void Front::solve_contacts() {
-  solver_.apply_guess(bodies_);
-  sweep();
-}
-
-void Front::sweep() {
+// Bodies come with the velocities that they would have without contact.
+void Front::solve_contacts(std::span<const Twist> guess) {
   const double tolerance = world_.tolerances.velocity * std::sqrt(world_.gravity * world_.smallest);
-  solver_.solve(bodies_, {tolerance, world_.tolerances.sweeps, world_.stacked});
+  if (chain_solver_.solve(bodies_, rows_, guess, tolerance)) return;
+  impulse_solver_.solve(bodies_, rows_, {tolerance, world_.tolerances.sweeps, world_.stacked});
 }
 
-void Front::positions(double time) {
-  solver_.prepare_positions(bodies_, touches_, time, world_.step);
+// Half a kick from the velocities of this moment, for a drift of `time`.
+void Front::plan(double time) {
+  make_rows(&PointMemory::kick, 0.5 * time);
+  set_bias(time);
+  now_.clear();
+  for (const Body& body : bodies_) now_.push_back(twist_of(body));
   kick(0.5 * time);
-  solver_.guess(touches_, 0.5 * time);
-  solve_contacts();
-  for (const ContactRow& row : solver_.rows()) {
-    PointMemory& memory = touches_[static_cast<std::size_t>(row.touch)].memory[static_cast<std::size_t>(row.point)];
-    memory.normal_impulse = row.n;
-    memory.friction_impulse = row.s * row.along + row.t * row.across;
-  }
-}
-
-void Front::move(double time) {
-  work_ = 0.0;
+  solve_contacts(now_);
+  remember_impulses(0.5 * time, &PointMemory::kick);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!members_[i].moving) continue;
-    members_[i].tilt_slope = cross(bodies_[i].angular_velocity, bodies_[i].axes * members_[i].local_up).z;
+    members_[i].middle = twist_of(bodies_[i]);
+    set_twist(bodies_[i], now_[i]);
   }
-  for (const ActiveForce& force : forces_) {
-    const Body& body = bodies_[static_cast<std::size_t>(place_of(force.brick))];
-    work_ -= dot(force.force, body.position + body.axes * force.point);
-  }
+  planned_for_ = time;
+}
+
+// A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
+void Front::leap(double time) {
+  const double next = world_.step;
+  make_rows(&PointMemory::kick, 0.5 * (time + next));
+  set_bias(next);
+  guess_.clear();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!members_[i].moving) continue;
-    drift(bodies_[i], time);
-    members_[i].tilt_slope_end = cross(bodies_[i].angular_velocity, bodies_[i].axes * members_[i].local_up).z;
+    guess_.push_back(members_[i].middle);
+    set_twist(bodies_[i], members_[i].middle);
   }
-  for (const ActiveForce& force : forces_) {
-    const Body& body = bodies_[static_cast<std::size_t>(place_of(force.brick))];
-    work_ += dot(force.force, body.position + body.axes * force.point);
+  kick(0.5 * (time + next));
+  solve_contacts(guess_);
+  remember_impulses(0.5 * (time + next), &PointMemory::kick);
+  const double share = time / (time + next);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Twist before = guess_[i], after = twist_of(bodies_[i]);
+    members_[i].middle = after;
+    set_twist(bodies_[i], {before.velocity + share * (after.velocity - before.velocity), before.spin + share * (after.spin - before.spin)});
   }
+  planned_for_ = next;
 }
 
-void Front::find_touches(bool first) {
-  for (Touch& touch : touches_) {
-    const Body& a = bodies_[static_cast<std::size_t>(touch.a)];
-    double thin = members_[static_cast<std::size_t>(touch.a)].thin;
-    before_.manifold = touch.manifold;
-    before_.memory = touch.memory;
-    if (touch.b == kFloor) {
-      touch_floor(a, world_.tolerances.margin * thin, touch.manifold);
-    } else {
-      const Body& b = bodies_[static_cast<std::size_t>(touch.b)];
-      thin = std::min(thin, members_[static_cast<std::size_t>(touch.b)].thin);
-      const Vec3 apart = a.position - b.position;
-      const double reach = a.radius + b.radius;
-      touch.manifold.count = 0;
-      if (dot(apart, apart) < reach * reach) touch_boxes(a, b, world_.tolerances.margin * thin, touch.axis, touch.manifold);
-    }
-    inherit(before_, world_.stacked ? world_.tolerances.touching * thin : 0.0, touch);
-    for (int k = 0; k < touch.manifold.count; ++k) {
-      PointMemory& memory = touch.memory[static_cast<std::size_t>(k)];
-      memory.fresh = false;
-      // What touches when a step begins has been touching: a brick that has just begun to move stands on its floor.
-      if (first && touch.manifold.points[static_cast<std::size_t>(k)].separation < world_.tolerances.touching * thin) memory.active = true;
-    }
-  }
-}
-
-double Front::closing_speed(const Touch& touch, int point) const {
-  const Vec3& at = touch.manifold.points[static_cast<std::size_t>(point)].position;
-  const Body& a = bodies_[static_cast<std::size_t>(touch.a)];
-  Vec3 slip = velocity_at(a, at - a.position);
-  if (touch.b != kFloor) {
-    const Body& b = bodies_[static_cast<std::size_t>(touch.b)];
-    slip = slip - velocity_at(b, at - b.position);
-  }
-  return -dot(touch.manifold.normal, slip);
-}
-
-double Front::thinner(const Touch& touch) const {
-  const double thin = members_[static_cast<std::size_t>(touch.a)].thin;
-  return touch.b == kFloor ? thin : std::min(thin, members_[static_cast<std::size_t>(touch.b)].thin);
-}
-
-// When the first new point touches, and which [s]; `touch` stays -1 if none does before `time`.
-double Front::first_impact(double time, int& touch, std::uint32_t& feature) const {
-  double first = time;
-  for (std::size_t i = 0; i < touches_.size(); ++i) {
-    const Touch& t = touches_[i];
-    if (t.manifold.count == 0) continue;
-    const double deep = -world_.tolerances.touching * thinner(t);
-    for (int k = 0; k < t.manifold.count; ++k) {
-      const TouchPoint& point = t.manifold.points[static_cast<std::size_t>(k)];
-      if (t.memory[static_cast<std::size_t>(k)].active || point.separation > deep) continue;
-      const double closing = closing_speed(t, k);
-      if (closing <= 0.0 && touched_before(i)) continue;
-      double at = closing > 0.0 ? time + point.separation / closing : 0.0;
-      if (at < 1e-3 * world_.step) {
-        // Either it touched from the start, or the depth is measured along another normal than that of the impact: then look earlier.
-        if (touched_before(i)) continue;
-        at = 0.25 * time;
-      }
-      if (at >= first) continue;
-      first = at;
-      touch = static_cast<int>(i);
-      feature = point.feature;
-    }
-  }
-  return first;
-}
-
-bool Front::touched_before(std::size_t touch) const {
-  const Touch& before = touches_before_[touch];
-  for (int k = 0; k < before.manifold.count; ++k) {
-    if (before.memory[static_cast<std::size_t>(k)].active || before.manifold.points[static_cast<std::size_t>(k)].separation <= 0.0)
-      return true;
-  }
-  return false;
-}
-
-// A better moment for the impact of one point, by Newton's method: `time` itself if it is good enough.
-double Front::refine(double time, double whole, int touch, std::uint32_t feature) const {
-  const Touch& t = touches_[static_cast<std::size_t>(touch)];
-  for (int k = 0; k < t.manifold.count; ++k) {
-    const TouchPoint& point = t.manifold.points[static_cast<std::size_t>(k)];
-    if (point.feature != feature || t.memory[static_cast<std::size_t>(k)].active) continue;
-    if (std::abs(point.separation) <= world_.tolerances.located * thinner(t)) return time;
-    const double closing = closing_speed(t, k);
-    if (closing <= 0.0) return time;
-    const double at = time + point.separation / closing;
-    return at <= 0.0 || at >= whole ? time : at;
-  }
-  return time;
-}
-
-// Points that have come to touch take part from now on. Returns whether there are any.
-bool Front::activate_new_points() {
-  bool any = false;
-  for (Touch& touch : touches_) {
-    if (touch.manifold.count == 0) continue;
-    const double near = world_.tolerances.touching * thinner(touch);
-    for (int k = 0; k < touch.manifold.count; ++k) {
-      PointMemory& memory = touch.memory[static_cast<std::size_t>(k)];
-      if (memory.active || touch.manifold.points[static_cast<std::size_t>(k)].separation > near) continue;
-      memory.active = true;
-      memory.fresh = true;
-      any = true;
-    }
-  }
-  return any;
-}
-
-// The second half kick, on points that have touched before; then, without gravity's time, the blow of those that touch from now on.
-void Front::velocities(double time, double now) {
-  solver_.prepare_velocities(bodies_, touches_, world_.step);
-  kick(0.5 * time);
-  solver_.guess(touches_, 0.5 * time);
-  solve_contacts();
-  ledger_.push_work += work_;
-  work_ = 0.0;
+// Keeps what the points carry and do; one that parts has to come back to touch again.
+void Front::remember_impulses(double time, ContactState PointMemory::* states) {
+  const double slow = 0.5 * world_.gravity * world_.step;
   for (Touch& touch : touches_) touch.impulse = 0.0;
-  remember_forces(time);
-  struck_now_.clear();
-  const bool fresh = activate_new_points();
-  wake_struck(now);
-  if (fresh || !struck_now_.empty()) {
-    take_blow();
-    note_struck(now);
-    note_landed(now);
-  }
-  release_parting_points();
-}
-
-void Front::remember_forces(double time) {
-  // In a very short part the solver's tolerance is too large a share of the impulse to tell the force.
-  const bool worth_it = time > 0.1 * world_.step;
-  for (const ContactRow& row : solver_.rows()) {
+  for (const ContactRow& row : rows_) {
     Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
     PointMemory& memory = touch.memory[static_cast<std::size_t>(row.point)];
-    touch.impulse += row.n0 + row.n;
-    if (worth_it) {
-      memory.normal_force = (row.n0 + row.n) / time;
-      memory.friction_force = (1.0 / time) * ((row.s0 + row.s) * row.along + (row.t0 + row.t) * row.across);
+    touch.impulse += row.n;
+    memory.*states = row.state;
+    if (time > 0.1 * world_.step) {
+      memory.normal_force = row.n / time;
+      memory.friction_force = (1.0 / time) * row.friction_impulse;
     }
-    memory.normal_impulse = 0.0;
-    memory.friction_impulse = {};
+    if (!row.state.pressed && -closing_speed(touch, row.point) > slow) memory.active = false;
   }
-}
-
-// A point that parts has to come back to touch again.
-void Front::release_parting_points() {
-  const double slow = 0.5 * world_.gravity * world_.step;
-  for (const ContactRow& row : solver_.rows()) {
-    Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
-    if (-closing_speed(touch, row.point) > slow) touch.memory[static_cast<std::size_t>(row.point)].active = false;
-  }
-}
-
-bool Front::is_hit(const Touch& touch, std::size_t still) const {
-  double load = 0.0;
-  for (int k = 0; k < touch.manifold.count; ++k) {
-    const PointMemory& memory = touch.memory[static_cast<std::size_t>(k)];
-    if (memory.fresh) return true;
-    load += memory.normal_force;
-  }
-  const double weight = world_.gravity * world_.layout.kinds[bodies_[still].kind].mass;
-  return !touch.bearing && load > world_.tolerances.load * weight;
-}
-
-// Bricks that stand or rest and are hit in this moment begin to move, so that the impact acts on them.
-void Front::wake_struck(double now) {
-  for (bool again = true; again;) {
-    again = false;
-    for (const Touch& touch : touches_) {
-      if (touch.b == kFloor || touch.manifold.count == 0) continue;
-      const bool a_moves = members_[static_cast<std::size_t>(touch.a)].moving;
-      const bool b_moves = members_[static_cast<std::size_t>(touch.b)].moving;
-      if (a_moves == b_moves) continue;
-      const auto still = static_cast<std::size_t>(a_moves ? touch.b : touch.a);
-      const auto mover = static_cast<std::size_t>(a_moves ? touch.a : touch.b);
-      if (!is_hit(touch, still)) continue;
-      struck_now_.push_back({bodies_[still].id, bodies_[mover].id});
-      wake(bodies_[still].id, now);
-      settle_on_floor(static_cast<int>(still));
-      again = true;
-      break;
-    }
-  }
-}
-
-// A brick that has just begun to move stands on what it stood on.
-void Front::settle_on_floor(int place) {
-  for (Touch& touch : touches_) {
-    if (touch.b != kFloor || touch.a != place) continue;
-    touch_floor(bodies_[static_cast<std::size_t>(place)], world_.tolerances.touching * members_[static_cast<std::size_t>(place)].thin,
-                touch.manifold);
-    touch.memory.fill(kTouching);
-  }
+  for (Touch& touch : touches_) touch.load = time > 0.0 ? touch.impulse / time : 0.0;
 }
 
 }  // namespace topple::rigid

@@ -29,17 +29,20 @@ void apply(Body& body, const Vec3& arm, const Vec3& impulse) {
 
 }  // namespace
 
-void apply(std::span<Body> bodies, const ContactRow& row, double n, double s, double t) {
+void apply(std::span<Body> bodies, const ContactRow& row, const Vec3& impulse) {
+  apply(bodies[static_cast<std::size_t>(row.a)], row.arm_a, impulse);
+  if (row.b != kFloor) apply(bodies[static_cast<std::size_t>(row.b)], row.arm_b, -impulse);
+}
+
+void apply(std::span<Body> bodies, const SweepRow& row, double n, double s, double t) {
   const Vec3 impulse = n * row.normal + s * row.along + t * row.across;
   apply(bodies[static_cast<std::size_t>(row.a)], row.arm_a, impulse);
-  if (row.b == kFloor) return;
-  Body& b = bodies[static_cast<std::size_t>(row.b)];
-  if (b.inverse_mass > 0.0) apply(b, row.arm_b, -impulse);
+  if (row.b != kFloor) apply(bodies[static_cast<std::size_t>(row.b)], row.arm_b, -impulse);
 }
 
 namespace {
 
-void set_frame(ContactRow& row, std::span<const Body> bodies) {
+void set_frame(SweepRow& row, std::span<const Body> bodies) {
   const Body& a = bodies[static_cast<std::size_t>(row.a)];
   // The heading of a brick's own x axis: what it slides along.
   row.along = tangent_of(row.normal, column(a.axes, 0));
@@ -63,32 +66,8 @@ void set_frame(ContactRow& row, std::span<const Body> bodies) {
   row.k_cc = dot(row.across, kc);
 }
 
-// A ball's point is always the nearest one, however it turns: for the distance it is as if it did not.
-Vec3 spin_of(const Body& body) { return body.round ? Vec3{} : body.angular_velocity; }
-
-Vec3 centripetal(const Body& body, const Vec3& arm) {
-  if (body.round) return {};
-  return cross(body.angular_velocity, cross(body.angular_velocity, arm)) + cross(body.gyroscopic, arm);
-}
-
-// Second derivative of the distance vector of the two material points while no force acts [m/s^2]. The normal turns with the body whose
-// face it is, which adds the second term.
-Vec3 curvature(const ContactRow& row, const Manifold& manifold, std::span<const Body> bodies) {
-  const Body& a = bodies[static_cast<std::size_t>(row.a)];
-  Vec3 bend = centripetal(a, row.arm_a);
-  if (row.b == kFloor) return bend;
-  const Body& b = bodies[static_cast<std::size_t>(row.b)];
-  bend = bend - centripetal(b, row.arm_b);
-  Vec3 turning = spin_of(b);
-  if (manifold.reference == Reference::a) turning = spin_of(a);
-  if (manifold.reference == Reference::edges) turning = 0.5 * (spin_of(a) + spin_of(b));
-  const Vec3 slip = (a.velocity + cross(spin_of(a), row.arm_a)) - (b.velocity + cross(spin_of(b), row.arm_b));
-  const double turned = 2.0 * dot(cross(turning, row.normal), slip);
-  return bend + turned * row.normal;
-}
-
 // One point: normal first, then friction with the limit that follows. Returns the largest change of velocity.
-double solve_row(ContactRow& row, std::span<Body> bodies) {
+double solve_row(SweepRow& row, std::span<Body> bodies) {
   Body& a = bodies[static_cast<std::size_t>(row.a)];
   Vec3 slip = velocity_at(a, row.arm_a);
   if (row.b != kFloor) slip = slip - velocity_at(bodies[static_cast<std::size_t>(row.b)], row.arm_b);
@@ -96,27 +75,28 @@ double solve_row(ContactRow& row, std::span<Body> bodies) {
   double vs = dot(row.along, slip) + row.bias_along;
   double vt = dot(row.across, slip) + row.bias_across;
 
-  const double n = std::max(row.n - vn / row.k_nn, row.floor_impulse);
+  const double n = std::max(row.n - (vn + row.give_normal * row.n) / (row.k_nn + row.give_normal), 0.0);
   const double dn = n - row.n;
-  vs += row.k_na * dn;
-  vt += row.k_nc * dn;
+  vs += row.k_na * dn + row.give * row.s;
+  vt += row.k_nc * dn + row.give * row.t;
 
   // Sticking if that needs no more than Coulomb allows.
-  const double limit = row.friction * std::max(row.n0 + n, 0.0);
-  const double determinant = row.k_aa * row.k_cc - row.k_ac * row.k_ac;
-  double s = row.s - (row.k_cc * vs - row.k_ac * vt) / determinant;
-  double t = row.t - (row.k_aa * vt - row.k_ac * vs) / determinant;
-  double size = std::sqrt((row.s0 + s) * (row.s0 + s) + (row.t0 + t) * (row.t0 + t));
+  const double limit = row.friction * (row.base + n);
+  const double k_aa = row.k_aa + row.give, k_cc = row.k_cc + row.give;
+  const double determinant = k_aa * k_cc - row.k_ac * row.k_ac;
+  double s = row.s - (k_cc * vs - row.k_ac * vt) / determinant;
+  double t = row.t - (k_aa * vt - row.k_ac * vs) / determinant;
+  double size = std::sqrt(s * s + t * t);
   if (size > limit) {
     // Sliding: one scalar step for both directions, so that at the fixed point friction is opposite to the slip.
-    const double k = std::max(row.k_aa, row.k_cc) + std::abs(row.k_ac);
+    const double k = std::max(k_aa, k_cc) + std::abs(row.k_ac);
     s = row.s - vs / k;
     t = row.t - vt / k;
-    size = std::sqrt((row.s0 + s) * (row.s0 + s) + (row.t0 + t) * (row.t0 + t));
+    size = std::sqrt(s * s + t * t);
     if (size > limit) {
       const double scale = limit / size;
-      s = scale * (row.s0 + s) - row.s0;
-      t = scale * (row.t0 + t) - row.t0;
+      s = scale * s;
+      t = scale * t;
     }
   }
   const double ds = s - row.s;
@@ -130,68 +110,34 @@ double solve_row(ContactRow& row, std::span<Body> bodies) {
 
 }  // namespace
 
-void ImpulseSolver::prepare(std::span<const Body> bodies, std::span<const Touch> touches) {
+void ImpulseSolver::begin(std::span<Body> bodies, std::span<const ContactRow> rows) {
   rows_.clear();
-  for (std::size_t i = 0; i < touches.size(); ++i) {
-    const Touch& touch = touches[i];
-    for (int k = 0; k < touch.manifold.count; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (!touch.memory[at].active) continue;
-      ContactRow row;
-      row.a = touch.a;
-      row.b = touch.b;
-      row.touch = static_cast<int>(i);
-      row.point = k;
-      row.arm_a = touch.manifold.points[at].position - bodies[static_cast<std::size_t>(touch.a)].position;
-      if (touch.b != kFloor) row.arm_b = touch.manifold.points[at].position - bodies[static_cast<std::size_t>(touch.b)].position;
-      row.normal = touch.manifold.normal;
-      row.friction = touch.friction;
-      set_frame(row, bodies);
-      rows_.push_back(row);
-    }
+  for (const ContactRow& from : rows) {
+    SweepRow row;
+    row.a = from.a;
+    row.b = from.b;
+    row.arm_a = from.arm_a;
+    row.arm_b = from.arm_b;
+    row.normal = from.normal;
+    row.friction = from.friction;
+    row.base = from.base;
+    row.give_normal = 1.0 / from.normal_stiffness;
+    row.give = 1.0 / from.tangent_stiffness;
+    set_frame(row, bodies);
+    row.bias = dot(row.normal, from.bias);
+    row.bias_along = dot(row.along, from.bias);
+    row.bias_across = dot(row.across, from.bias);
+    row.n = from.n;
+    row.s = dot(row.along, from.friction_impulse);
+    row.t = dot(row.across, from.friction_impulse);
+    rows_.push_back(row);
   }
+  for (const SweepRow& row : rows_) apply(bodies, row, row.n, row.s, row.t);
 }
 
-void ImpulseSolver::prepare_positions(std::span<const Body> bodies, std::span<const Touch> touches, double time, double full_step) {
-  prepare(bodies, touches);
-  for (ContactRow& row : rows_) {
-    const Touch& touch = touches[static_cast<std::size_t>(row.touch)];
-    const double separation = touch.manifold.points[static_cast<std::size_t>(row.point)].separation;
-    const Vec3 bend = (0.5 * time) * curvature(row, touch.manifold, bodies);
-    row.bias = separation / (separation > 0.0 ? time : full_step) + dot(row.normal, bend);
-    row.bias_along = dot(row.along, bend);
-    row.bias_across = dot(row.across, bend);
-  }
-}
-
-void ImpulseSolver::prepare_velocities(std::span<const Body> bodies, std::span<const Touch> touches, double full_step) {
-  prepare(bodies, touches);
-  for (ContactRow& row : rows_) {
-    const Touch& touch = touches[static_cast<std::size_t>(row.touch)];
-    const auto at = static_cast<std::size_t>(row.point);
-    const PointMemory& memory = touch.memory[at];
-    row.bias = std::max(touch.manifold.points[at].separation, 0.0) / full_step;
-    row.n0 = memory.normal_impulse;
-    row.s0 = dot(row.along, memory.friction_impulse);
-    row.t0 = dot(row.across, memory.friction_impulse);
-    row.floor_impulse = -row.n0;
-  }
-}
-
-void ImpulseSolver::guess(std::span<const Touch> touches, double time) {
-  for (ContactRow& row : rows_) {
-    const PointMemory& memory = touches[static_cast<std::size_t>(row.touch)].memory[static_cast<std::size_t>(row.point)];
-    row.n = time * memory.normal_force;
-    row.s = time * dot(row.along, memory.friction_force);
-    row.t = time * dot(row.across, memory.friction_force);
-  }
-}
-
-void ImpulseSolver::apply_guess(std::span<Body> bodies) {
-  for (const ContactRow& row : rows_) apply(bodies, row, row.n, row.s, row.t);
-}
-
-void ImpulseSolver::solve(std::span<Body> bodies, const SolveLimits& limits) {
+void ImpulseSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, const SolveLimits& limits) {
+  begin(bodies, rows);
+  if (limits.stacked) order_.find(rows, bodies);
   constexpr int kSweepsBeforeNewton = 24;
   constexpr double kLeastPenalty = 1.0, kFirstPenalty = 1e4, kMostPenalty = 1e5;
   NewtonSolver::Effort effort{kFirstPenalty, limits.tolerance};
@@ -204,20 +150,17 @@ void ImpulseSolver::solve(std::span<Body> bodies, const SolveLimits& limits) {
     }
     if (change <= limits.tolerance) break;
     if (!limits.stacked || sweeps < kSweepsBeforeNewton) continue;
-    const bool found = newton_.improve(rows_, bodies, effort);
+    const bool found = newton_.improve(rows_, bodies, order_, effort);
     effort.penalty = found ? std::min(10.0 * effort.penalty, kMostPenalty) : std::max(0.1 * effort.penalty, kLeastPenalty);
   }
-}
-
-bool ImpulseSolver::restore(std::span<const Touch> touches) {
-  bool any = false;
-  for (ContactRow& row : rows_) {
-    const double restitution = touches[static_cast<std::size_t>(row.touch)].restitution;
-    if (restitution <= 0.0 || row.n <= 0.0) continue;
-    row.floor_impulse = (1.0 + restitution) * row.n;
-    any = true;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const SweepRow& from = rows_[k];
+    ContactRow& row = rows[k];
+    row.n = from.n;
+    row.friction_impulse = from.s * from.along + from.t * from.across;
+    const double limit = from.friction * (from.base + from.n);
+    row.state = {from.n > 0.0, from.s * from.s + from.t * from.t >= 0.999 * limit * limit};
   }
-  return any;
 }
 
 }  // namespace topple::rigid

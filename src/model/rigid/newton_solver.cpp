@@ -17,7 +17,7 @@ constexpr double kBeyondLimit = 0.1;  // Of the tolerance: what friction may be 
 constexpr std::size_t kWide = 6;  // Velocities of a brick.
 
 // How velocities of a brick, linear and angular, move the point: rows are normal, along, across.
-std::array<double, 18> motion_of_point(const ContactRow& row, const Vec3& arm, double sign) {
+std::array<double, 18> motion_of_point(const SweepRow& row, const Vec3& arm, double sign) {
   std::array<double, 18> out{};
   const std::array<const Vec3*, 3> directions{&row.normal, &row.along, &row.across};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -76,59 +76,11 @@ void add_stiffness(const std::array<double, 18>& left, const std::array<double, 
 
 }  // namespace
 
-// The bricks that move in the order of Cuthill and McKee, reversed [Cuthill1969]: so a stack's matrix is as narrow as the stack.
-void NewtonSolver::number_bodies(std::span<const ContactRow> rows, std::span<const Body> bodies) {
-  const auto moves = [&](int body) { return body != kFloor && bodies[static_cast<std::size_t>(body)].inverse_mass > 0.0; };
-  number_.assign(bodies.size(), -1);
-  if (near_.size() < bodies.size()) near_.resize(bodies.size());
-  for (auto& near : near_) near.clear();
-  const auto link = [this](int one, int other) {
-    auto& near = near_[static_cast<std::size_t>(one)];
-    if (std::find(near.begin(), near.end(), other) == near.end()) near.push_back(other);
-  };
-  for (const ContactRow& row : rows) {
-    if (moves(row.a)) link(row.a, moves(row.b) ? row.b : row.a);
-    if (moves(row.b)) link(row.b, moves(row.a) ? row.a : row.b);
-  }
-  const auto degree = [this](int body) { return near_[static_cast<std::size_t>(body)].size(); };
-  order_.clear();
-  std::size_t done = 0;
-  while (true) {
-    // Each heap of bricks from the one with the fewest neighbours.
-    int from = -1;
-    for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
-      if (number_[static_cast<std::size_t>(body)] >= 0 || degree(body) == 0) continue;
-      if (from < 0 || degree(body) < degree(from)) from = body;
-    }
-    if (from < 0) break;
-    number_[static_cast<std::size_t>(from)] = 0;
-    order_.push_back(from);
-    for (; done < order_.size(); ++done) {
-      const std::size_t begin = order_.size();
-      for (const int other : near_[static_cast<std::size_t>(order_[done])]) {
-        if (number_[static_cast<std::size_t>(other)] >= 0) continue;
-        number_[static_cast<std::size_t>(other)] = 0;
-        order_.push_back(other);
-      }
-      std::stable_sort(order_.begin() + static_cast<std::ptrdiff_t>(begin), order_.end(),
-                       [&](int l, int r) { return degree(l) < degree(r); });
-    }
-  }
-  std::reverse(order_.begin(), order_.end());
-  first_.resize(order_.size());
-  for (std::size_t i = 0; i < order_.size(); ++i) number_[static_cast<std::size_t>(order_[i])] = static_cast<int>(i);
-  for (std::size_t i = 0; i < order_.size(); ++i) {
-    first_[i] = static_cast<int>(i);
-    for (const int other : near_[static_cast<std::size_t>(order_[i])])
-      first_[i] = std::min(first_[i], number_[static_cast<std::size_t>(other)]);
-  }
-}
-
-void NewtonSolver::begin(std::span<const ContactRow> rows, std::span<const Body> bodies, double penalty) {
-  number_bodies(rows, bodies);
+void NewtonSolver::begin(std::span<const SweepRow> rows, std::span<const Body> bodies, const BodyOrder& order, double penalty) {
+  order_ = &order;
   mass_.clear();
   start_.clear();
-  for (const int body : order_) {
+  for (const int body : order.bodies()) {
     const Body& b = bodies[static_cast<std::size_t>(body)];
     mass_.push_back(mass_matrix(b));
     start_.insert(start_.end(),
@@ -140,36 +92,36 @@ void NewtonSolver::begin(std::span<const ContactRow> rows, std::span<const Body>
   probe_.resize(start_.size());
   parts_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ContactRow& row = rows[i];
+    const SweepRow& row = rows[i];
     RowPart& part = parts_[i];
     part.a = motion_of_point(row, row.arm_a, 1.0);
     if (row.b != kFloor) part.b = motion_of_point(row, row.arm_b, -1.0);
     part.penalty_n = penalty / row.k_nn;
     part.penalty_t = penalty / std::max(row.k_aa, row.k_cc);
-    part.radius = row.friction * std::max(row.n0 + row.n, 0.0);
+    part.radius = row.friction * (row.base + row.n);
   }
 }
 
 // What each point's penalty says at these velocities; and how it answers to small changes of them.
-void NewtonSolver::try_impulses(std::span<const ContactRow> rows, std::span<const double> velocity) {
+void NewtonSolver::try_impulses(std::span<const SweepRow> rows, std::span<const double> velocity) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ContactRow& row = rows[i];
+    const SweepRow& row = rows[i];
     RowPart& part = parts_[i];
     Vec3 w{row.bias, row.bias_along, row.bias_across};
-    const int a = number_[static_cast<std::size_t>(row.a)], b = row.b == kFloor ? -1 : number_[static_cast<std::size_t>(row.b)];
+    const int a = order_->number(row.a), b = order_->number(row.b);
     if (a >= 0) add_motion(part.a, six(velocity, a), w);
     if (b >= 0) add_motion(part.b, six(velocity, b), w);
     const double n = row.n - part.penalty_n * w.x;
-    part.n = std::max(n, row.floor_impulse);
-    part.stiffness = {n > row.floor_impulse ? part.penalty_n : 0.0, part.penalty_t, 0.0, part.penalty_t};
-    const double s = row.s0 + row.s - part.penalty_t * w.y, t = row.t0 + row.t - part.penalty_t * w.z;
+    part.n = std::max(n, 0.0);
+    part.stiffness = {n > 0.0 ? part.penalty_n : 0.0, part.penalty_t, 0.0, part.penalty_t};
+    const double s = row.s - part.penalty_t * w.y, t = row.t - part.penalty_t * w.z;
     const double size = std::sqrt(s * s + t * t);
-    part.s = s - row.s0;
-    part.t = t - row.t0;
+    part.s = s;
+    part.t = t;
     if (size <= part.radius) continue;
     const double share = size > 0.0 ? part.radius / size : 0.0;
-    part.s = share * s - row.s0;
-    part.t = share * t - row.t0;
+    part.s = share * s;
+    part.t = share * t;
     const double ds = size > 0.0 ? s / size : 0.0, dt = size > 0.0 ? t / size : 0.0;
     const double across = share * part.penalty_t;
     part.stiffness[1] = across * (1.0 - ds * ds);
@@ -179,8 +131,8 @@ void NewtonSolver::try_impulses(std::span<const ContactRow> rows, std::span<cons
 }
 
 // M (v - start) - J^T (trial impulses - those that act already).
-void NewtonSolver::gradient(std::span<const ContactRow> rows, std::span<const double> velocity, std::span<double> out) const {
-  for (std::size_t i = 0; i < order_.size(); ++i) {
+void NewtonSolver::gradient(std::span<const SweepRow> rows, std::span<const double> velocity, std::span<double> out) const {
+  for (std::size_t i = 0; i < order_->bodies().size(); ++i) {
     std::array<double, 6> change{};
     for (std::size_t k = 0; k < kWide; ++k) change[k] = velocity[kWide * i + k] - start_[kWide * i + k];
     const std::array<double, 6> momentum = times(mass_[i], change);
@@ -190,18 +142,18 @@ void NewtonSolver::gradient(std::span<const ContactRow> rows, std::span<const do
     for (std::size_t k = 0; k < kWide; ++k) g[k] -= j[k] * impulse.x + j[kWide + k] * impulse.y + j[2 * kWide + k] * impulse.z;
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ContactRow& row = rows[i];
+    const SweepRow& row = rows[i];
     const RowPart& part = parts_[i];
     const Vec3 impulse{part.n - row.n, part.s - row.s, part.t - row.t};
-    const int a = number_[static_cast<std::size_t>(row.a)], b = row.b == kFloor ? -1 : number_[static_cast<std::size_t>(row.b)];
+    const int a = order_->number(row.a), b = order_->number(row.b);
     if (a >= 0) pull(part.a, impulse, six(out, a));
     if (b >= 0) pull(part.b, impulse, six(out, b));
   }
 }
 
-void NewtonSolver::assemble(std::span<const ContactRow> rows) {
-  matrix_.shape(first_);
-  for (std::size_t i = 0; i < order_.size(); ++i) {
+void NewtonSolver::assemble(std::span<const SweepRow> rows) {
+  matrix_.shape(order_->first());
+  for (std::size_t i = 0; i < order_->bodies().size(); ++i) {
     const std::array<double, 10>& m = mass_[i];
     Block6& block = matrix_.at(static_cast<int>(i), static_cast<int>(i));
     block[0] = block[7] = block[14] = m[0];
@@ -213,9 +165,9 @@ void NewtonSolver::assemble(std::span<const ContactRow> rows) {
     block[35] = m[6];
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ContactRow& row = rows[i];
+    const SweepRow& row = rows[i];
     const RowPart& part = parts_[i];
-    const int a = number_[static_cast<std::size_t>(row.a)], b = row.b == kFloor ? -1 : number_[static_cast<std::size_t>(row.b)];
+    const int a = order_->number(row.a), b = order_->number(row.b);
     if (a >= 0) add_stiffness(part.a, part.a, part.stiffness, matrix_.at(a, a));
     if (b >= 0) add_stiffness(part.b, part.b, part.stiffness, matrix_.at(b, b));
     if (a >= 0 && b >= 0 && a > b) add_stiffness(part.a, part.b, part.stiffness, matrix_.at(a, b));
@@ -224,7 +176,7 @@ void NewtonSolver::assemble(std::span<const ContactRow> rows) {
 }
 
 // Of the energy along the step, at this share of it.
-double NewtonSolver::slope(std::span<const ContactRow> rows, double share) {
+double NewtonSolver::slope(std::span<const SweepRow> rows, double share) {
   for (std::size_t i = 0; i < probe_.size(); ++i) probe_[i] = velocity_[i] + share * step_[i];
   try_impulses(rows, probe_);
   gradient(rows, probe_, gradient_);
@@ -232,7 +184,7 @@ double NewtonSolver::slope(std::span<const ContactRow> rows, double share) {
 }
 
 // The share of the step at which the energy is least; it is convex, so its slope changes sign once.
-double NewtonSolver::search(std::span<const ContactRow> rows) {
+double NewtonSolver::search(std::span<const SweepRow> rows) {
   double low = 0.0, high = 1.0;
   const double at_low = product(gradient_, step_);
   const double at_high = slope(rows, 1.0);
@@ -249,7 +201,7 @@ double NewtonSolver::search(std::span<const ContactRow> rows) {
 }
 
 // The step of least energy from here; returns how fast it moves the fastest corner [m/s], or a negative number if there is none.
-double NewtonSolver::find_step(std::span<const ContactRow> rows, std::span<const Body> bodies) {
+double NewtonSolver::find_step(std::span<const SweepRow> rows, std::span<const Body> bodies) {
   try_impulses(rows, velocity_);
   gradient(rows, velocity_, gradient_);
   assemble(rows);
@@ -257,30 +209,30 @@ double NewtonSolver::find_step(std::span<const ContactRow> rows, std::span<const
   for (std::size_t k = 0; k < step_.size(); ++k) step_[k] = -gradient_[k];
   matrix_.solve(step_);
   double largest = 0.0;
-  for (std::size_t k = 0; k < order_.size(); ++k) {
+  for (std::size_t k = 0; k < order_->bodies().size(); ++k) {
     const double* v = &step_[kWide * k];
-    const double radius = bodies[static_cast<std::size_t>(order_[k])].radius;
+    const double radius = bodies[static_cast<std::size_t>(order_->bodies()[k])].radius;
     largest = std::max(largest, norm({v[0], v[1], v[2]}) + radius * norm({v[3], v[4], v[5]}));
   }
   return largest;
 }
 
 // Sets the limits of friction by the normal impulses found; returns whether some friction was beyond its own.
-bool NewtonSolver::limit_friction(std::span<const ContactRow> rows, double tolerance) {
+bool NewtonSolver::limit_friction(std::span<const SweepRow> rows, double tolerance) {
   try_impulses(rows, velocity_);
   bool beyond = false;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const ContactRow& row = rows[k];
+    const SweepRow& row = rows[k];
     RowPart& part = parts_[k];
-    const double s = row.s0 + part.s, t = row.t0 + part.t;
-    part.radius = row.friction * std::max(row.n0 + part.n, 0.0);
+    const double s = part.s, t = part.t;
+    part.radius = row.friction * (row.base + part.n);
     beyond = beyond || (std::sqrt(s * s + t * t) - part.radius) * row.k_aa > kBeyondLimit * tolerance;
   }
   return beyond;
 }
 
-bool NewtonSolver::improve(std::span<ContactRow> rows, std::span<Body> bodies, const Effort& effort) {
-  begin(rows, bodies, effort.penalty);
+bool NewtonSolver::improve(std::span<SweepRow> rows, std::span<Body> bodies, const BodyOrder& order, const Effort& effort) {
+  begin(rows, bodies, order, effort.penalty);
   bool settled = false;
   int rounds = 0;
   for (int i = 0; i < kNewtonSteps && !settled; ++i) {
@@ -297,7 +249,7 @@ bool NewtonSolver::improve(std::span<ContactRow> rows, std::span<Body> bodies, c
   if (!settled) return false;
   try_impulses(rows, velocity_);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ContactRow& row = rows[i];
+    SweepRow& row = rows[i];
     const RowPart& part = parts_[i];
     apply(bodies, row, part.n - row.n, part.s - row.s, part.t - row.t);
     row.n = part.n;

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "model/rigid/block_cholesky.h"
-#include "model/rigid/contact_row.h"
+#include "model/rigid/body_order.h"
+#include "model/rigid/sweep_row.h"
 
 namespace topple::rigid {
 
@@ -23,7 +24,7 @@ class NewtonSolver {
     double tolerance = 0.0;  ///< [m/s]
   };
   /// False, and nothing has changed, where no minimum was found: from farther off the penalties must be lower.
-  bool improve(std::span<ContactRow> rows, std::span<Body> bodies, const Effort& effort);
+  bool improve(std::span<SweepRow> rows, std::span<Body> bodies, const BodyOrder& order, const Effort& effort);
 
  private:
   struct RowPart {
@@ -33,20 +34,16 @@ class NewtonSolver {
     double radius = 0.0;                      // of the friction disk [N s]
     std::array<double, 4> stiffness{};        // of normal; along, both, across
   };
-  void number_bodies(std::span<const ContactRow> rows, std::span<const Body> bodies);
-  void begin(std::span<const ContactRow> rows, std::span<const Body> bodies, double penalty);
-  double find_step(std::span<const ContactRow> rows, std::span<const Body> bodies);
-  bool limit_friction(std::span<const ContactRow> rows, double tolerance);
-  void try_impulses(std::span<const ContactRow> rows, std::span<const double> velocity);
-  void gradient(std::span<const ContactRow> rows, std::span<const double> velocity, std::span<double> out) const;
-  void assemble(std::span<const ContactRow> rows);
-  double slope(std::span<const ContactRow> rows, double share);
-  double search(std::span<const ContactRow> rows);
+  void begin(std::span<const SweepRow> rows, std::span<const Body> bodies, const BodyOrder& order, double penalty);
+  double find_step(std::span<const SweepRow> rows, std::span<const Body> bodies);
+  bool limit_friction(std::span<const SweepRow> rows, double tolerance);
+  void try_impulses(std::span<const SweepRow> rows, std::span<const double> velocity);
+  void gradient(std::span<const SweepRow> rows, std::span<const double> velocity, std::span<double> out) const;
+  void assemble(std::span<const SweepRow> rows);
+  double slope(std::span<const SweepRow> rows, double share);
+  double search(std::span<const SweepRow> rows);
 
-  std::vector<int> number_;             // Of each body among those that move; -1 for the others.
-  std::vector<int> order_;              // The body of each number.
-  std::vector<std::vector<int>> near_;  // Bodies that share a point.
-  std::vector<int> first_;
+  const BodyOrder* order_ = nullptr;
   std::vector<std::array<double, 10>> mass_;  // Of each number: mass, then the inertia's upper triangle by rows.
   std::vector<RowPart> parts_;
   std::vector<double> start_, velocity_, gradient_, step_, probe_;

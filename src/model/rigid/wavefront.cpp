@@ -59,6 +59,7 @@ void Front::drop_lost() {
     renamed_[i] = -1;
   }
   if (!any) return;
+  planned_for_ = 0.0;
   std::erase_if(touches_, [this](const Touch& touch) {
     return members_[static_cast<std::size_t>(touch.a)].lost || (touch.b != kFloor && members_[static_cast<std::size_t>(touch.b)].lost);
   });
@@ -99,6 +100,8 @@ void Front::set_moving(int place) {
   member.moving = true;
   member.quiet = 0.0;
   member.tilt_cosine = (body.axes * member.local_up).z;
+  member.middle = member.before_drift = member.gain = {};
+  planned_for_ = 0.0;
   if (body.round) {  // It has no tilt: nothing arrives at it, and it does not fall.
     world_.arrived[static_cast<std::size_t>(body.id)] = 1;
     member.landed = true;
@@ -109,6 +112,7 @@ void Front::set_moving(int place) {
   const Surface& surface = world_.layout.kinds[body.kind].surface;
   floor.friction = surface.floor_friction;
   floor.restitution = surface.floor_restitution;
+  find_now(floor);  // A brick that has just begun to move stands on what it stood on.
   touches_.push_back(floor);
 }
 
@@ -135,7 +139,6 @@ void Front::wake_structure(BrickId brick) {
     }
     for (std::size_t k = known; k < roused.size(); ++k) {
       rouse(roused[k]);
-      settle_on_floor(place_of(roused[k]));
     }
   }
 }
@@ -159,8 +162,8 @@ void Front::mark_borne_by(int place) {
     const int other = touch.a == place ? touch.b : touch.a;
     if (members_[static_cast<std::size_t>(other)].moving) continue;
     touch_boxes(bodies_[static_cast<std::size_t>(touch.a)], bodies_[static_cast<std::size_t>(touch.b)],
-                world_.tolerances.touching * members_[static_cast<std::size_t>(place)].thin, touch.axis, touch.manifold);
-    touch.bearing = touch.manifold.count > 0;
+                world_.tolerances.touching * members_[static_cast<std::size_t>(place)].thin, touch.now);
+    touch.bearing = touch.now.count > 0;
     touch.memory.fill(kTouching);
     touch.mark_position = body.position;
     touch.mark_orientation = body.orientation;
@@ -197,6 +200,7 @@ void Front::list_neighbours(int place) {
     const SurfacePair surfaces = surface_pair(world_.layout, body.kind, world_.layout.bricks[at].kind);
     touch.friction = surfaces.friction;
     touch.restitution = surfaces.restitution;
+    find_now(touch);
     touches_.push_back(touch);
   }
 }
@@ -320,6 +324,7 @@ void Front::retire(double time) {
     note_rest(static_cast<int>(i), time);
     body.velocity = {};
     body.angular_velocity = {};
+    member.middle = {};
     body.inverse_mass = 0.0;
     body.inverse_inertia = Mat3{};
     for (Touch& touch : touches_) {
@@ -351,6 +356,7 @@ void Front::adopt(std::span<const HandedBrick> bricks, std::span<const ActiveFor
   for (const HandedBrick& handed : bricks) list_neighbours(place_of(handed.brick));
   for (const HandedBrick& handed : bricks) mark_borne_by(place_of(handed.brick));
   forces_.insert(forces_.end(), forces.begin(), forces.end());
+  planned_for_ = 0.0;
   order_touches();
 }
 
@@ -370,8 +376,10 @@ void Front::absorb(Front& other) {
     if (theirs.b != kFloor) touch.b = place_of(other.bodies_[static_cast<std::size_t>(theirs.b)].id);
     if (touch.a < 0 || (theirs.b != kFloor && touch.b < 0)) continue;
     const bool listed = std::any_of(touches_.begin(), touches_.end(), [&](const Touch& t) { return t.a == touch.a && t.b == touch.b; });
-    if (!listed) touches_.push_back(touch);
+    if (listed) continue;
+    touches_.push_back(touch);
   }
+  planned_for_ = 0.0;
   moving_ += other.moving_;
   forces_.insert(forces_.end(), other.forces_.begin(), other.forces_.end());
   events_.insert(events_.end(), other.events_.begin(), other.events_.end());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/trigonometry.h"
+#include "model/rigid/chain_solver.h"
 #include "model/rigid/impulse_solver.h"
 #include "model/rigid/touch.h"
 #include "model/rigid/wave.h"
@@ -20,9 +21,10 @@ struct Member {
   double thin = 0.0;                  ///< Its thinnest side [m].
   double time_scale = 0.0;            ///< sqrt(longest side / gravity) [s].
   double quiet = 0.0;                 ///< How long it has hardly moved [s].
+  Twist middle;        ///< What carries it through the drift that is planned.
+  Twist before_drift;  ///< Its velocities when the last drift began.
+  Twist gain;          ///< Their change in the last drift, per time: its acceleration before the last blow.
   double tilt_cosine = 1.0;
-  double tilt_slope = 0.0;      ///< Of the cosine, when the last drift began [1/s].
-  double tilt_slope_end = 0.0;  ///< When it ended [1/s].
   bool moving = false;
   bool lost = false;    ///< Another front has taken it in the same step.
   bool pushed = false;  ///< A force acts on it.
@@ -80,32 +82,40 @@ class Front final : public Wave {
   void keep_those(std::vector<int>& renamed);
   void order_touches();
   double part(double begin, double time, bool may_cut);
+  void make_rows(ContactState PointMemory::* guess, double time);
+  void set_bias(double time);
   void kick(double time);
   void slow_ball(std::size_t place, double time);
-  void solve_contacts();
-  void sweep();
-  void move(double time);
-  void find_touches(bool first);
-  double first_impact(double time, int& touch, std::uint32_t& feature) const;
-  bool touched_before(std::size_t touch) const;
-  double refine(double time, double whole, int touch, std::uint32_t feature) const;
+  void solve_contacts(std::span<const Twist> guess);
+  void plan(double time);
+  void leap(double time);
+  void remember_impulses(double time, ContactState PointMemory::* states);
+  Body body_at(std::size_t place, double time, double whole) const;
+  void find_next(const std::vector<Body>& bodies, Touch& touch) const;
+  void find_now(Touch& touch) const;
+  double recall_within(const Touch& touch) const;
+  void try_drift(double time);
+  double first_impact(double time);
+  double impact_of(const Touch& touch, double time) const;
+  double distance_at(const Touch& touch, double time, double whole) const;
+  void accept_drift(double begin, double cut, double whole);
   double closing_speed(const Touch& touch, int point) const;
   double thinner(const Touch& touch) const;
-  void positions(double time);
-  void velocities(double time, double now);
   bool activate_new_points();
+  bool closes_fast() const;
+  void take_blow(double whole, double next);
+  bool blow(bool always);
+  double moving_energy() const;
+  void give_back(double before);
+  void bounce_by(double share);
   bool is_hit(const Touch& touch, std::size_t still) const;
-  void settle_on_floor(int place);
   void wake_struck(double now);
   void wake_unsupported(double now);
-  void remember_forces(double time);
-  void release_parting_points();
-  void note_arrivals(double begin, double time);
+  void note_arrival(std::size_t place, double begin, double time, double slope_before, double slope_after);
   void note_struck(double now);
   void note_landed(double now);
   void note_rest(int place, double now);
   void begin_push(const Push& push, double now);
-  void take_blow();
   BrickId supporter(int place) const;
 
   int moving_ = 0;
@@ -115,8 +125,9 @@ class Front final : public Wave {
   std::vector<Body> bodies_;
   std::vector<Member> members_;
   std::vector<Touch> touches_;
-  std::vector<Body> bodies_before_;
-  std::vector<Touch> touches_before_;
+  std::vector<Body> ahead_;  // The bodies at the end of the part of the step that is tried.
+  std::vector<ContactRow> rows_, compression_;
+  std::vector<Twist> guess_, now_, free_;
   std::vector<ActiveForce> forces_;
   std::vector<BrickId> near_;
   std::vector<BrickId> roused_;
@@ -125,9 +136,10 @@ class Front final : public Wave {
     BrickId brick, by;
   };
   std::vector<Struck> struck_now_;
+  double planned_for_ = 0.0;  // The plan is good for a drift of this time [s]; 0: for none.
   Touch before_;
-  double work_ = 0.0;
-  ImpulseSolver solver_;
+  ChainSolver chain_solver_;
+  ImpulseSolver impulse_solver_;
 };
 
 }  // namespace topple::rigid

@@ -1,0 +1,35 @@
+/// In which order the bodies that move are eliminated from a system of equations.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/rigid/contact_row.h"
+
+namespace topple::rigid {
+
+/// The order of Cuthill and McKee, reversed [Cuthill1969]: so the matrix of a row is one block wide, that of a stack as wide as the stack.
+/// Every heap of bricks begins with its newest brick, so along a wave what is near the head comes first.
+class BodyOrder {
+ public:
+  void find(std::span<const ContactRow> rows, std::span<const Body> bodies);
+
+  std::span<const int> bodies() const { return order_; }  ///< By number.
+  /// Of each number, the least number that a point couples it to, itself at most.
+  std::span<const int> first() const { return first_; }
+  int number(int body) const { return body == kFloor ? -1 : number_[static_cast<std::size_t>(body)]; }  ///< -1: does not move or touch.
+
+ private:
+  struct Pair {
+    int a = 0, b = 0;
+  };
+  void list_pairs(std::span<const ContactRow> rows, std::span<const Body> bodies);
+  std::span<const int> near(int body) const;
+
+  std::vector<Pair> pairs_;
+  std::vector<int> begin_, near_;  // Bodies that share a point with body i are near_[begin_[i]] to near_[begin_[i + 1] - 1].
+  std::vector<int> next_;
+  std::vector<int> number_, order_, first_;
+};
+
+}  // namespace topple::rigid
