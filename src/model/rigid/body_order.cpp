@@ -33,9 +33,7 @@ void BodyOrder::list_pairs(std::span<const ContactRow> rows, std::span<const Bod
   for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
   near_.resize(2 * pairs_.size());
   next_.assign(begin_.begin(), begin_.end() - 1);
-  const auto list = [this](int body, int other) {
-    near_[static_cast<std::size_t>(next_[static_cast<std::size_t>(body)]++)] = other;
-  };
+  const auto list = [this](int body, int other) { near_[static_cast<std::size_t>(next_[static_cast<std::size_t>(body)]++)] = other; };
   for (const Pair& pair : pairs_) {
     list(pair.a, pair.b);
     list(pair.b, pair.a);
@@ -65,7 +63,8 @@ void BodyOrder::find(std::span<const ContactRow> rows, std::span<const Body> bod
         if (number_[static_cast<std::size_t>(other)] == kWaiting) take(other);
       }
       const auto fewer = [this](int l, int r) { return near(l).size() < near(r).size(); };
-      for (auto i = order_.begin() + begin; i != order_.end(); ++i) std::rotate(std::upper_bound(order_.begin() + begin, i, *i, fewer), i, i + 1);
+      for (auto i = order_.begin() + begin; i != order_.end(); ++i)
+        std::rotate(std::upper_bound(order_.begin() + begin, i, *i, fewer), i, i + 1);
     }
   }
   std::reverse(order_.begin(), order_.end());

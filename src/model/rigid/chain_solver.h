@@ -30,7 +30,7 @@ class ChainSolver {
   /// A row's state and the way it slides, as the system of equations has it.
   struct Assumed {
     ContactState state;
-    Vec3 way;           // Unit, the way it slides.
+    Vec3 way;             // Unit, the way it slides.
     bool coupled = true;  // Its friction follows its normal impulse; else it is...
     double limit = 0.0, should_limit = 0.0;
     double drag = 0.0;  // Impulse per velocity across that way [kg].
@@ -39,7 +39,7 @@ class ChainSolver {
     ContactState should;
     Vec3 should_way;
     double should_drag = 0.0;
-    double wrong = 0.0;  // By how much the state is wrong [m/s].
+    double wrong = 0.0;   // By how much the state is wrong [m/s].
     bool turned = false;  // It slides another way than assumed.
   };
   void begin(std::span<const Body> bodies, std::span<const ContactRow> rows, std::span<const Twist> guess);

@@ -17,14 +17,14 @@ struct ContactRow {
   Vec3 normal;        ///< From b to a, unit.
   Vec3 bias;          ///< Added to the slip before the laws of contact hold [m/s].
   double friction = 0.0;
-  double base = 0.0;                ///< Normal impulse that has been applied already and counts for friction [N s].
-  double normal_stiffness = 0.0;    ///< Impulse per velocity that is left: 1 / compliance [kg].
-  double tangent_stiffness = 0.0;   ///< [kg]
-  double normal_mass = 0.0;         ///< Impulse per velocity of the point along its normal, if nothing else touched [kg].
-  double mass = 0.0;                ///< The same across it [kg].
-  ContactState state;               ///< The guess, then the truth.
-  double n = 0.0;                   ///< Normal impulse: the guess, then the truth [N s].
-  Vec3 friction_impulse;            ///< On a: the same [N s].
+  double base = 0.0;               ///< Normal impulse that has been applied already and counts for friction [N s].
+  double normal_stiffness = 0.0;   ///< Impulse per velocity that is left: 1 / compliance [kg].
+  double tangent_stiffness = 0.0;  ///< [kg]
+  double normal_mass = 0.0;        ///< Impulse per velocity of the point along its normal, if nothing else touched [kg].
+  double mass = 0.0;               ///< The same across it [kg].
+  ContactState state;              ///< The guess, then the truth.
+  double n = 0.0;                  ///< Normal impulse: the guess, then the truth [N s].
+  Vec3 friction_impulse;           ///< On a: the same [N s].
 };
 
 /// Gives both bricks of a point an impulse [N s]; `impulse` is that on a.

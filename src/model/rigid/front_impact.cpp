@@ -50,7 +50,6 @@ void find(const Body& a, const Body* b, double margin, Manifold& out) {
   touch_boxes(a, *b, margin, out);
 }
 
-
 }  // namespace
 
 // A body after `time` of a drift that is planned for `whole`. The acceleration of this part is constant, so the mean velocity until then
