@@ -15,6 +15,7 @@ constexpr double kLeans = 0.1;
 
 // What rests goes on to lean on what moves, so it may rest after this share of the time that others have to wait.
 constexpr double kPatience = 0.5;
+constexpr double kRetire = 1.5;
 
 // How far the farthest corner has moved [m].
 double displacement(const PlaneBrick& brick, const PlaneVec& from) {
@@ -297,7 +298,7 @@ void PlaneFront::retire(double time) {
     const auto corner = [&brick](const PlaneVec& v) { return std::sqrt(v.x * v.x + v.z * v.z) + brick.radius * std::abs(v.turn); };
     const double gain = corner(brick.velocity - brick.velocity_before) / world_.step;
     const double ahead = horizon * (corner(brick.velocity) + 0.5 * horizon * gain);
-    brick.quiet = ahead < limits.retire * brick.thin && !brick.pushed ? brick.quiet + world_.step : 0.0;
+    brick.quiet = ahead < kRetire * limits.retire * brick.thin && !brick.pushed ? brick.quiet + world_.step : 0.0;
     if (brick.quiet < kPatience * limits.patience * brick.time_scale) continue;
     rested_ = true;
     brick.moving = false;
