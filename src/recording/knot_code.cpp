@@ -114,6 +114,27 @@ inline std::int32_t get_signed(const std::uint8_t*& code) {
   return static_cast<std::int32_t>(value >> 1) ^ -static_cast<std::int32_t>(value & 1U);
 }
 
+// The next knot of a free track, part by part in kOrder.
+inline void get_next(const std::uint8_t*& code, WholeFree& whole) {
+  const WholeFree last = whole;
+  const auto as_before = [&](std::size_t i) { whole.part[i] += get_signed(code); };
+  const auto as_expected = [&](std::size_t i) { whole.part[i] = expected(last, whole, i) + get_signed(code); };
+  as_before(0);
+  as_before(8);
+  as_before(9);
+  as_before(10);
+  as_expected(1);
+  as_expected(2);
+  as_expected(3);
+  as_before(4);
+  as_before(5);
+  as_before(6);
+  as_before(7);
+  as_before(11);
+  as_before(12);
+  as_before(13);
+}
+
 constexpr std::size_t kHead = kMostBytes + 1;
 
 // A rounded hinged track has its last knot behind the head, as it is, and then the codes of all.
@@ -189,6 +210,20 @@ std::optional<HingedKnot> last_hinged_knot(const std::uint8_t* code) {
   return last;
 }
 
+std::optional<FreeKnot> last_free_knot(const std::uint8_t* code) {
+  const std::size_t count = get(code);
+  const auto way = static_cast<Way>(*code++);
+  if (way == Way::free) {
+    FreeKnot last;
+    std::memcpy(&last, code + (count - 1) * sizeof last, sizeof last);
+    return last;
+  }
+  if (way != Way::free_rounded) return std::nullopt;
+  WholeFree whole;
+  for (std::size_t i = 0; i < count; ++i) get_next(code, whole);
+  return to_knot(whole);
+}
+
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
   const std::size_t count = get(code);
   const auto way = static_cast<Way>(*code++);
@@ -202,8 +237,7 @@ void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vect
     free.resize(before + count);
     WholeFree whole;
     for (FreeKnot& knot : std::span(free).subspan(before)) {
-      const WholeFree last = whole;
-      for (const std::size_t i : kOrder) whole.part[i] = expected(last, whole, i) + get_signed(code);
+      get_next(code, whole);
       knot = to_knot(whole);
     }
     return;

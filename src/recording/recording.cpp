@@ -66,6 +66,13 @@ BrickState state_in(const Layout& layout, const Track& track, double time) {
   return free_state(layout, track.brick, state_at(track.free, time - track.start));
 }
 
+// Of a free track only its last knot where no more is asked for.
+Track track_at(const TrackStore& tracks, std::int32_t piece, double time) {
+  const auto last = tracks.last_free_knot(piece);
+  if (!last || time < tracks.start_of(piece) + double{last->time}) return tracks.track(static_cast<std::size_t>(piece));
+  return {.brick = tracks.brick_of(piece), .start = tracks.start_of(piece), .hinged = {}, .free = {*last}};
+}
+
 }  // namespace
 
 Recording::Store::Store(Layout the_layout, Recipe the_recipe)
@@ -137,7 +144,7 @@ BrickState Recording::at(BrickId brick, double time) const {
     state.phase = phase_after(*last);
     return state;
   }
-  const Track track = tracks.track(static_cast<std::size_t>(piece));
+  const Track track = track_at(tracks, piece, time);
   BrickState state = state_in(store_->layout, track, time);
   state.phase = time < end_of(track) ? Phase::falling : phase_after(track, state.hinge.angle);
   if (state.phase != Phase::falling) {

@@ -28,6 +28,10 @@ std::optional<HingedKnot> TrackStore::last_knot(std::int32_t index) const {
   return last_hinged_knot(pieces_[static_cast<std::size_t>(index)].code);
 }
 
+std::optional<FreeKnot> TrackStore::last_free_knot(std::int32_t index) const {
+  return topple::last_free_knot(pieces_[static_cast<std::size_t>(index)].code);
+}
+
 Track TrackStore::track(std::size_t index) const {
   Track track;
   read(index, track);

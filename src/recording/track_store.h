@@ -25,7 +25,8 @@ class TrackStore {
     std::size_t free = 0;
   };
   Count read(std::int32_t index, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) const;
-  std::optional<HingedKnot> last_knot(std::int32_t index) const;  ///< Of a hinged piece.
+  std::optional<HingedKnot> last_knot(std::int32_t index) const;     ///< Of a hinged piece.
+  std::optional<FreeKnot> last_free_knot(std::int32_t index) const;  ///< Of a free piece.
   BrickId brick_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].brick; }
   double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
 

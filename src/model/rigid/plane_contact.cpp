@@ -21,47 +21,67 @@ Corner corner_of(const PlaneBox& box, unsigned which) {
           static_cast<std::uint8_t>(which)};
 }
 
+// A side of a box: its middle against the centre of another box, and from there to its far end.
+struct Side {
+  double x, z;
+  double to_x, to_z;
+  std::uint8_t near_end, far_end;
+};
+
+// The side of `box` that looks most against a normal (x, z).
+Side side_against(const PlaneBox& box, const PlaneBox& base, double x, double z) {
+  const double u = x * box.cosine - z * box.sine, w = x * box.sine + z * box.cosine;
+  const double from_x = box.place.x - base.place.x, from_z = box.place.z - base.place.z;
+  if (std::abs(u) > std::abs(w)) {
+    const double along = u > 0.0 ? -box.half_along : box.half_along;
+    const auto near_end = static_cast<std::uint8_t>(u > 0.0 ? 0 : 1);
+    return {from_x + along * box.cosine,
+            from_z - along * box.sine,
+            box.half_up * box.sine,
+            box.half_up * box.cosine,
+            near_end,
+            static_cast<std::uint8_t>(near_end + 2)};
+  }
+  const double up = w > 0.0 ? -box.half_up : box.half_up;
+  const auto near_end = static_cast<std::uint8_t>(w > 0.0 ? 0 : 2);
+  return {from_x + up * box.sine,
+          from_z + up * box.cosine,
+          box.half_along * box.cosine,
+          -box.half_along * box.sine,
+          near_end,
+          static_cast<std::uint8_t>(near_end + 1)};
+}
+
 // Clips the side of `other` that looks at a face of `base` by the two sides of that face. `x`, `z`: the face's outward normal; `along`:
 // whether it is the face at the end of the box's own axis along the row.
 void side_points(const PlaneBox& base, const PlaneBox& other, bool along, double x, double z, double margin, PlaneManifold& out) {
-  // The side of `other` that looks most against the normal.
-  const double u = x * other.cosine - z * other.sine, w = x * other.sine + z * other.cosine;
-  unsigned first = 0, second = 0;
-  if (std::abs(u) > std::abs(w)) {
-    first = u > 0.0 ? 0U : 1U;
-    second = first + 2U;
-  } else {
-    first = w > 0.0 ? 0U : 2U;
-    second = first + 1U;
-  }
-  const std::uint8_t of_base = out.face_of_a ? 0 : 4, of_other = out.face_of_a ? 4 : 0;
-  std::array<Corner, 2> ends = {corner_of(other, first), corner_of(other, second)};
+  const Side side = side_against(other, base, x, z);
+  const unsigned of_base = out.face_of_a ? 0 : 4, of_other = out.face_of_a ? 4 : 0;
   // The tangent is the base's other axis; a hair's breadth wider, so that equal sides keep their corners.
   const double tx = along ? base.sine : base.cosine, tz = along ? base.cosine : -base.sine;
-  const double half = along ? base.half_up : base.half_along;
+  const double half = along ? base.half_up : base.half_along, depth = along ? base.half_along : base.half_up;
   const double limit = half + 1e-7 * (base.half_along + base.half_up);
-  std::array<double, 2> t{};
-  for (std::size_t i = 0; i < 2; ++i) t[i] = (ends[i].x - base.place.x) * tx + (ends[i].z - base.place.z) * tz;
+  // Places along the face, and distances from it, of the middle and of the way from there to the far end.
+  const double t = side.x * tx + side.z * tz, t_way = side.to_x * tx + side.to_z * tz;
+  const double distance = side.x * x + side.z * z - depth, distance_way = side.to_x * x + side.to_z * z;
   out.count = 0;
-  if ((t[0] > limit && t[1] > limit) || (t[0] < -limit && t[1] < -limit)) return;
-  const double depth = along ? base.half_along : base.half_up;
-  const double normal_side = along ? x * base.cosine - z * base.sine : x * base.sine + z * base.cosine;
-  for (std::size_t i = 0; i < 2; ++i) {
-    Corner end = ends[i];
-    std::uint8_t feature = of_other + end.feature;
-    if (std::abs(t[i]) > limit) {
-      const double at = t[i] > 0.0 ? half : -half;
-      const double share = (at - t[i]) / (t[1 - i] - t[i]);
-      end.x += share * (ends[1 - i].x - end.x);
-      end.z += share * (ends[1 - i].z - end.z);
-      const unsigned face_end = along ? (normal_side > 0.0 ? 1U : 0U) : (normal_side > 0.0 ? 2U : 0U);
-      const unsigned side_end = t[i] > 0.0 ? (along ? 2U : 1U) : 0U;
-      feature = static_cast<std::uint8_t>(of_base + face_end + side_end);
+  if (std::abs(t) - std::abs(t_way) > limit) return;
+  for (const double end : {-1.0, 1.0}) {
+    double share = end;
+    unsigned feature = of_other + (end < 0.0 ? side.near_end : side.far_end);
+    const double there = t + end * t_way;
+    if (std::abs(there) > limit) {
+      share = ((there > 0.0 ? half : -half) - t) / t_way;
+      const double normal_side = along ? x * base.cosine - z * base.sine : x * base.sine + z * base.cosine;
+      const unsigned face_end = normal_side > 0.0 ? (along ? 1U : 2U) : 0U;
+      feature = of_base + face_end + (there > 0.0 ? (along ? 2U : 1U) : 0U);
     }
-    const double separation = (end.x - base.place.x) * x + (end.z - base.place.z) * z - depth;
-    out.parted = i == 0 ? separation : std::min(out.parted, separation);
+    const double separation = distance + share * distance_way;
+    out.parted = end < 0.0 ? separation : std::min(out.parted, separation);
     if (separation > margin) continue;
-    out.points[static_cast<std::size_t>(out.count++)] = {end.x, end.z, separation, feature};
+    out.points[static_cast<std::size_t>(out.count++)] = {base.place.x + side.x + share * side.to_x,
+                                                         base.place.z + side.z + share * side.to_z, separation,
+                                                         static_cast<std::uint8_t>(feature)};
   }
 }
 

@@ -41,8 +41,15 @@ Vec3 PlaneFront::in_world(double x, double z) const {
   return {plane_.origin.x + x * plane_.along.x, plane_.origin.y + x * plane_.along.y, z};
 }
 
+// Of half the turn; by roots, which are exact everywhere, while it is less than a right angle and a half.
+SinCos PlaneFront::half_turn(const PlaneBox& box) {
+  if (box.cosine < -0.7 || std::abs(box.place.turn) > 3.0) return sin_cos(0.5 * box.place.turn);
+  const double cosine = std::sqrt(0.5 + 0.5 * box.cosine);
+  return {.sin = 0.5 * box.sine / cosine, .cos = cosine};
+}
+
 Pose PlaneFront::pose_of(const PlaneBrick& brick) const {
-  const SinCos half = sin_cos(0.5 * brick.box.place.turn);
+  const SinCos half = half_turn(brick.box);
   const Quat turn{half.cos, half.sin * plane_.across.x, half.sin * plane_.across.y, 0.0};
   return {in_world(brick.box.place.x, brick.box.place.z) + brick.lateral * plane_.across, turn * brick.upright};
 }
@@ -203,7 +210,8 @@ void PlaneFront::drop_idle() {
     if (touch.b < 0) return !a.moving;
     const PlaneBrick& b = bricks_[static_cast<std::size_t>(touch.b)];
     if (!a.moving && !b.moving) return true;
-    const double reach = 2.0 * (a.radius + b.radius);
+    // Farther than where they are listed, by less than bricks go before their lists are made anew.
+    const double reach = 1.4 * (a.radius + b.radius);
     const PlaneVec apart = a.box.place - b.box.place;
     return apart.x * apart.x + apart.z * apart.z > reach * reach;
   });
@@ -217,8 +225,42 @@ void PlaneFront::drop_idle() {
   }
 }
 
+namespace {
+
+bool comes_before(const PlaneBrick& left, const PlaneBrick& right) {
+  return left.box.place.x != right.box.place.x ? left.box.place.x < right.box.place.x : left.id < right.id;
+}
+
+// By the later brick of each: those that are new then come last, and little has to move.
+bool comes_before(const PlaneTouch& l, const PlaneTouch& r) {
+  const int left = std::max(l.a, l.b), right = std::max(r.a, r.b);
+  return left != right ? left < right : std::min(l.a, l.b) < std::min(r.a, r.b);
+}
+
+}  // namespace
+
+bool PlaneFront::in_order() const {
+  for (std::size_t i = 0; i < bricks_.size(); ++i) {
+    if (!owns(bricks_[i].id) || (i > 0 && comes_before(bricks_[i], bricks_[i - 1]))) return false;
+  }
+  return true;
+}
+
 // Bricks along the row, so that the system of equations is a chain; touches by brick, its floor first.
 void PlaneFront::order() {
+  if (!in_order()) order_bricks();
+  for (std::size_t i = 1; i < touches_.size(); ++i) {
+    if (!comes_before(touches_[i], touches_[i - 1])) continue;
+    std::size_t at = i - 1;
+    while (at > 0 && comes_before(touches_[i], touches_[at - 1])) --at;
+    const auto begin = touches_.begin();
+    std::rotate(begin + static_cast<std::ptrdiff_t>(at), begin + static_cast<std::ptrdiff_t>(i),
+                begin + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+  find_near_pairs();
+}
+
+void PlaneFront::order_bricks() {
   renamed_.resize(bricks_.size());
   std::vector<PlaneBrick>& kept = spare_;
   std::vector<int>& by_place = by_place_;
@@ -227,11 +269,8 @@ void PlaneFront::order() {
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
     if (owns(bricks_[i].id)) by_place.push_back(static_cast<int>(i));
   }
-  std::sort(by_place.begin(), by_place.end(), [this](int l, int r) {
-    const PlaneBrick& left = bricks_[static_cast<std::size_t>(l)];
-    const PlaneBrick& right = bricks_[static_cast<std::size_t>(r)];
-    return left.box.place.x != right.box.place.x ? left.box.place.x < right.box.place.x : left.id < right.id;
-  });
+  std::sort(by_place.begin(), by_place.end(),
+            [this](int l, int r) { return comes_before(bricks_[static_cast<std::size_t>(l)], bricks_[static_cast<std::size_t>(r)]); });
   for (const int from : by_place) {
     renamed_[static_cast<std::size_t>(from)] = static_cast<int>(kept.size());
     kept.push_back(bricks_[static_cast<std::size_t>(from)]);
@@ -242,20 +281,6 @@ void PlaneFront::order() {
     touch.a = renamed_[static_cast<std::size_t>(touch.a)];
     if (touch.b >= 0) touch.b = renamed_[static_cast<std::size_t>(touch.b)];
   }
-  // By the later brick of each: those that are new then come last, and little has to move.
-  const auto before = [](const PlaneTouch& l, const PlaneTouch& r) {
-    const int left = std::max(l.a, l.b), right = std::max(r.a, r.b);
-    return left != right ? left < right : std::min(l.a, l.b) < std::min(r.a, r.b);
-  };
-  for (std::size_t i = 1; i < touches_.size(); ++i) {
-    std::size_t at = i;
-    while (at > 0 && before(touches_[i], touches_[at - 1])) --at;
-    const auto begin = touches_.begin();
-    if (at < i)
-      std::rotate(begin + static_cast<std::ptrdiff_t>(at), begin + static_cast<std::ptrdiff_t>(i),
-                  begin + static_cast<std::ptrdiff_t>(i) + 1);
-  }
-  find_near_pairs();
 }
 
 void PlaneFront::wake_unsupported(double now) {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/trigonometry.h"
 #include "model/rigid/plane_solver.h"
 #include "model/rigid/row_plane.h"
 #include "model/rigid/wave.h"
@@ -93,7 +94,9 @@ class PlaneFront final : public Wave {
   void list_neighbours(int place);
   void list_those_that_strayed();
   void drop_idle();
+  bool in_order() const;
   void order();
+  void order_bricks();
   void mark_borne_by(int place);
   void wake_unsupported(double now);
   void wake_struck(double now);
@@ -108,7 +111,7 @@ class PlaneFront final : public Wave {
   };
   using Pattern = std::vector<PatternPoint>;
   void recall(const Pattern& pattern, int head, int most = 1 << 20);
-  void keep(Pattern& pattern, int head) const;
+  void keep(Pattern& pattern, int head, int most = 1 << 20) const;
   bool closes_fast() const;
   void plan(double time, Pattern* pattern = nullptr);
   void leap(double time);
@@ -140,6 +143,7 @@ class PlaneFront final : public Wave {
   void note_rest(int place, double now);
   BrickId supporter(int place) const;
   Vec3 in_world(double x, double z) const;
+  static SinCos half_turn(const PlaneBox& box);
   Pose pose_of(const PlaneBrick& brick) const;
 
   RowPlane plane_;

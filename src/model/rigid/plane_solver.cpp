@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace topple::rigid {
 
@@ -15,14 +16,25 @@ constexpr int kConvexIterations = 40;  // Of Newton's method in one round; it en
 
 double dot(const Column<3>& a, const Column<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-void add_outer(Block<3>& out, double scale, const Column<3>& force, const Column<3>& rate) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double value = scale * force[i];
-    for (std::size_t j = 0; j < 3; ++j) out.m[3 * i + j] += value * rate[j];
+using Two = double __attribute__((vector_size(16), aligned(8)));
+
+// Two lanes and one number a row.
+inline void add_outer(Block<3>& out, const Column<3>& force, const Column<3>& rate) {
+  const Two first = {rate[0], rate[1]};
+  double* row = out.m.data();
+  for (std::size_t i = 0; i < 3; ++i, row += 3) {
+    const Two times = {force[i], force[i]};
+    Two sum;
+    std::memcpy(&sum, row, sizeof sum);
+    sum += times * first;
+    std::memcpy(row, &sum, sizeof sum);
+    row[2] += force[i] * rate[2];
   }
 }
 
-void add_scaled(Column<3>& out, double scale, const Column<3>& force) {
+inline Column<3> scaled(double scale, const Column<3>& force) { return {scale * force[0], scale * force[1], scale * force[2]}; }
+
+inline void add_scaled(Column<3>& out, double scale, const Column<3>& force) {
   for (std::size_t i = 0; i < 3; ++i) out[i] += scale * force[i];
 }
 
@@ -118,16 +130,15 @@ void PlaneSolver::shape(std::size_t count, std::span<const PlaneRow> rows) {
   matrix_.shape(first_);
 }
 
-// Adds force (rate . v) to the matrix: `force` is what the point does to its bodies per impulse, `rate` gives the velocity.
-inline void PlaneSolver::add(const PlaneRow& row, const Column<3>& force_a, const Column<3>& force_b, const Column<3>& rate_a,
-                             const Column<3>& rate_b, double stiffness) {
+// Adds to the matrix force (rate . v) of up to two constraints of one point; forces come with their stiffness.
+inline void PlaneSolver::add(const PlaneRow& row, const Pull& pull) {
   const auto a = static_cast<std::size_t>(row.a);
-  add_outer(matrix_.diagonal(a), stiffness, force_a, rate_a);
+  add_outer(matrix_.diagonal(a), pull.force_a, pull.rate_a);
   if (row.b < 0) return;
   const auto b = static_cast<std::size_t>(row.b);
-  add_outer(matrix_.diagonal(b), stiffness, force_b, rate_b);
-  add_outer(a < b ? matrix_.upper(a, b) : matrix_.lower(a, b), stiffness, force_a, rate_b);
-  add_outer(a < b ? matrix_.lower(b, a) : matrix_.upper(b, a), stiffness, force_b, rate_a);
+  add_outer(matrix_.diagonal(b), pull.force_b, pull.rate_b);
+  add_outer(a < b ? matrix_.upper(a, b) : matrix_.lower(a, b), pull.force_a, pull.rate_b);
+  add_outer(a < b ? matrix_.lower(b, a) : matrix_.upper(b, a), pull.force_b, pull.rate_a);
 }
 
 inline void PlaneSolver::push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b) {
@@ -140,31 +151,32 @@ void PlaneSolver::add(const PlaneRow& row, Law law, double times) {
   if (!row.state.pressed && row.base == 0.0) return;
   const bool convex = law == Law::convex;
   const bool on_cone = convex && row.base == 0.0;
-  Column<3> force_a = row.normal_a, force_b = row.normal_b;
-  const double bias = row.bias + (on_cone ? row.friction * row.lagged_slip : 0.0);
+  double bias = row.bias + (on_cone ? row.friction * row.lagged_slip : 0.0);
+  double stiffness = times * row.normal_stiffness;
   if (row.state.grip == Grip::stick) {
-    const double stiffness = times * row.tangent_stiffness;
-    add(row, row.tangent_a, row.tangent_b, row.tangent_a, row.tangent_b, stiffness);
-    push(row, -stiffness * row.tangent_bias, row.tangent_a, row.tangent_b);
-  } else if (convex && !on_cone) {
-    push(row, -sign_of(row.state.grip) * times * row.lagged_limit, row.tangent_a, row.tangent_b);
-  } else {
-    // Sliding friction follows the normal impulse.
-    const double share = -sign_of(row.state.grip) * row.friction;
-    add_scaled(force_a, share, row.tangent_a);
-    add_scaled(force_b, share, row.tangent_b);
-    if (row.base > 0.0) push(row, times * share * row.base, row.tangent_a, row.tangent_b);
-    if (on_cone) {
-      const double stiffness = times * row.edge_stiffness;
-      add(row, force_a, force_b, force_a, force_b, stiffness);
-      push(row, -stiffness * (bias + share * row.tangent_bias), force_a, force_b);
-      return;
-    }
+    const double along = times * row.tangent_stiffness;
+    add(row, {scaled(along, row.tangent_a), scaled(along, row.tangent_b), row.tangent_a, row.tangent_b});
+    push(row, -along * row.tangent_bias, row.tangent_a, row.tangent_b);
+    if (!row.state.pressed) return;
+    add(row, {scaled(stiffness, row.normal_a), scaled(stiffness, row.normal_b), row.normal_a, row.normal_b});
+    push(row, -stiffness * bias, row.normal_a, row.normal_b);
+    return;
   }
-  if (!row.state.pressed) return;
-  const double stiffness = times * row.normal_stiffness;
-  add(row, force_a, force_b, row.normal_a, row.normal_b, stiffness);
+  // Sliding friction follows the normal impulse, but for a limit that is given.
+  const bool given = convex && !on_cone;
+  const double share = given ? 0.0 : -sign_of(row.state.grip) * row.friction;
+  if (given) push(row, -sign_of(row.state.grip) * times * row.lagged_limit, row.tangent_a, row.tangent_b);
+  if (!given && row.base > 0.0) push(row, times * share * row.base, row.tangent_a, row.tangent_b);
+  if (!row.state.pressed && !on_cone) return;
+  Column<3> force_a = row.normal_a, force_b = row.normal_b;
+  add_scaled(force_a, share, row.tangent_a);
+  add_scaled(force_b, share, row.tangent_b);
+  if (on_cone) {
+    stiffness = times * row.edge_stiffness;
+    bias += share * row.tangent_bias;
+  }
   push(row, -stiffness * bias, force_a, force_b);
+  add(row, {scaled(stiffness, force_a), scaled(stiffness, force_b), on_cone ? force_a : row.normal_a, on_cone ? force_b : row.normal_b});
 }
 
 // The system of equations that follows from the states that the rows assume.

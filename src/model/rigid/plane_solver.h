@@ -75,8 +75,11 @@ class PlaneSolver {
   bool settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
   void solve_convex(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
   double best_share(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows);
-  void add(const PlaneRow& row, const Column<3>& force_a, const Column<3>& force_b, const Column<3>& rate_a, const Column<3>& rate_b,
-           double stiffness);
+  struct Pull {
+    Column<3> force_a, force_b;  // Of a velocity of one, on the two bodies.
+    Column<3> rate_a, rate_b;    // J of the velocity.
+  };
+  void add(const PlaneRow& row, const Pull& pull);
   void push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b);
 
   std::vector<int> first_;

@@ -100,7 +100,7 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
       const PlaneMemory& memory = touch.memory[at];
       if (!memory.active) continue;
       const PlanePoint& point = touch.now.points[at];
-      PlaneRow row;
+      PlaneRow& row = rows_.emplace_back();
       row.touch = pair;
       row.point = k;
       double normal = 0.0, tangent = 0.0;
@@ -122,12 +122,14 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
         row.normal_a = row.normal_b;
         row.tangent_a = row.tangent_b;
       }
-      if (row.a < 0) continue;
+      if (row.a < 0) {
+        rows_.pop_back();
+        continue;
+      }
       row.normal_stiffness = 1.0 / (kCompliance * normal);
       row.tangent_stiffness = 1.0 / (kCompliance * tangent);
       row.friction = touch.friction;
       row.state = memory.*guess;
-      rows_.push_back(row);
     }
   }
 }
@@ -222,7 +224,7 @@ void PlaneFront::recall(const Pattern& pattern, int head, int most) {
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
     const int a = head - touch.a, b = touch.b < 0 ? kFloorOf : head - touch.b;
     const std::uint8_t feature = touch.now.points[static_cast<std::size_t>(row.point)].feature;
-    if (std::min(a, b) > most) break;
+    if (head - std::max(touch.a, touch.b) > most) break;
     // Both go in the same order.
     const auto comes_before = [a, b](const PatternPoint& point) {
       const int nearer = std::min(point.a, point.b), farther = std::max(point.a, point.b);
@@ -235,11 +237,12 @@ void PlaneFront::recall(const Pattern& pattern, int head, int most) {
   }
 }
 
-void PlaneFront::keep(Pattern& pattern, int head) const {
+void PlaneFront::keep(Pattern& pattern, int head, int most) const {
   pattern.clear();
   for (std::size_t i = rows_.size(); i-- > 0;) {
     const PlaneRow& row = rows_[i];
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    if (head - std::max(touch.a, touch.b) > most) break;
     pattern.push_back({head - touch.a, touch.b < 0 ? kFloorOf : head - touch.b,
                        touch.now.points[static_cast<std::size_t>(row.point)].feature, row.state});
   }
@@ -267,7 +270,7 @@ void PlaneFront::leap(double time) {
     brick.velocity = brick.middle + share * (after - brick.middle);
     brick.middle = after;
   }
-  if (pattern != nullptr) keep(*pattern, head);
+  if (pattern != nullptr) keep(*pattern, head, kLedByHead);
   remember_impulses(0.5 * (time + next), &PlaneMemory::kick);
   planned_for_ = next;
 }
