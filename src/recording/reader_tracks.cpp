@@ -62,8 +62,10 @@ RecordingReader::Done RecordingReader::check_start(BrickId brick, double start, 
   };
   if (!is_time(start) || !is_time(start + last_time)) return words("has a time that is none");
   const std::int32_t before = tracks.last_of(brick);
-  if (before != TrackStore::kNone && end_of(tracks.track(static_cast<std::size_t>(before))) > start + 1e-6) {
-    return words("begins before its last one ends");
+  if (before != TrackStore::kNone) {
+    // The end is a rounded number, the start is not.
+    if (tracks.start_of(before) > start) return words("begins before its last one begins");
+    if (end_of(tracks.track(static_cast<std::size_t>(before))) > start + 1e-6) return words("begins before its last one ends");
   }
   double& time = recording_->store_->time;
   time = std::max(time, start + last_time);

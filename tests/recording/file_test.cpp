@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -252,6 +253,35 @@ TEST_CASE("bricks, times and knots that cannot be are errors") {
   CHECK_FALSE(read_recording(forged(bytes, "EVNT", 8, none), "run.topple").has_value());
   CHECK_FALSE(read_recording(forged(bytes, "END_", 0, std::uint32_t{9}), "run.topple").has_value());
   CHECK_FALSE(read_recording(forged(bytes, "SCEN", 9, none), "run.topple").has_value());
+}
+
+TEST_CASE("tracks of a brick that are not in the order of time are an error, however short") {
+  auto bytes = bytes_of(three_bricks());
+  // In place of all hinged tracks two of brick 0, of one knot each.
+  for (auto all = pieces_of(bytes); true; all = pieces_of(bytes)) {
+    const auto hinged = std::find_if(all.begin(), all.end(), [](const Piece& p) { return p.type == "HING"; });
+    if (hinged == all.end()) break;
+    const auto at = bytes.begin() + static_cast<std::ptrdiff_t>(hinged->at);
+    bytes.erase(at, at + static_cast<std::ptrdiff_t>(16 + (hinged->length + 7) / 8 * 8));
+  }
+  const auto with = [&bytes](double first, double second) {
+    std::vector<std::uint8_t> piece(16 + 72, 0);
+    const auto put = [&piece](std::size_t at, auto value) { std::memcpy(piece.data() + at, &value, sizeof value); };
+    std::memcpy(piece.data(), "HING", 4);
+    put(8, std::uint64_t{72});
+    put(16, std::uint32_t{2});
+    put(20, std::uint32_t{2});
+    put(24, first);
+    put(32, second);
+    put(48, std::uint32_t{1});
+    put(52, std::uint32_t{1});
+    put(4, crc32(std::span(piece).subspan(16)));
+    auto file = bytes;
+    file.insert(file.begin() + static_cast<std::ptrdiff_t>(pieces_of(file).back().at), piece.begin(), piece.end());
+    return file;
+  };
+  CHECK(read_recording(with(0.0, 1e-7), "run.topple").has_value());
+  CHECK(error_of(with(1e-7, 0.0)).find("begins before its last one begins") != std::string::npos);
 }
 
 TEST_CASE("a piece of an unknown type is skipped") {
