@@ -140,6 +140,7 @@ struct KnownModel {
 };
 constexpr std::array kKnownModels = {KnownModel{"pivot", pivot_config}, KnownModel{"hinge", hinge_config},
                                      KnownModel{"rigid", rigid_config}};
+constexpr std::string_view kDefaultModel = "rigid";  // Of a layout that names none.
 
 // One overload a model.
 std::string_view name_of(const PivotConfig&) { return "pivot"; }
@@ -152,7 +153,7 @@ Result<std::unique_ptr<Model>> make(const Layout& layout, const RigidConfig& con
 }  // namespace
 
 Result<ModelConfig> model_config(const Layout& layout) {
-  std::string_view name = kKnownModels.front().name;
+  std::string_view name = kDefaultModel;
   std::string where = layout.name;
   for (const Setting& setting : layout.model) {
     if (setting.key != "name") continue;
