@@ -97,6 +97,8 @@ void ChainSolver::begin(std::span<const Body> bodies, std::span<const ContactRow
     }
     as.way = (1.0 / speed) * slip;
     as.drag = std::min(limit / speed, row.tangent_stiffness);
+    as.coupled = row.n > 0.0;  // The limit of one that has just begun to touch is not known yet.
+    as.limit = limit;
   }
   for (std::size_t k = 0; k < rows.size(); ++k) add(rows[k], assumed_[k], 1.0);
 }

@@ -78,6 +78,40 @@ inline bool invert(Block<3>& a) {
   return true;
 }
 
+/// By its four quarters [p q; r s], the first quarter first: of the mass and stiffness of a body that is the part of its translations.
+inline bool invert(Block<6>& a) {
+  Block<3> p, q, r, s;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      p.at(i, j) = a.at(i, j);
+      q.at(i, j) = a.at(i, j + 3);
+      r.at(i, j) = a.at(i + 3, j);
+      s.at(i, j) = a.at(i + 3, j + 3);
+    }
+  }
+  if (!invert(p)) return false;
+  const Block<3> rp = product(r, p), pq = product(p, q);
+  subtract_product(s, rp, q);
+  if (!invert(s)) return false;
+  const Block<3> srp = product(s, rp);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      a.at(i + 3, j) = -srp.at(i, j);
+      a.at(i + 3, j + 3) = s.at(i, j);
+    }
+  }
+  const Block<3> pqs = product(pq, s);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      double corner = p.at(i, j);
+      for (int k = 0; k < 3; ++k) corner += pq.at(i, k) * srp.at(k, j);
+      a.at(i, j) = corner;
+      a.at(i, j + 3) = -pqs.at(i, j);
+    }
+  }
+  return true;
+}
+
 /// By Gauss and Jordan with the largest pivot of each column. False if there is none.
 template <int N>
 inline bool invert(Block<N>& a) {
