@@ -66,7 +66,7 @@ def chapter_of(path):
     if parts[0] == "apps":
         return "apps"
     if parts[:2] == ("include", "topple"):
-        return "all" if path.stem == "topple" else path.stem
+        return {"topple": "all", "profile": "base"}.get(path.stem, path.stem)
     if parts[0] == "src":
         return parts[2] if parts[1] == "model" and len(parts) > 3 else parts[1]
     return None

@@ -9,6 +9,7 @@
 #include "summary.h"
 #include "text.h"
 #include "topple/export.h"
+#include "topple/profile.h"
 #include "verb.h"
 
 namespace topple::app {
@@ -70,6 +71,7 @@ class RunVerb final : public Verb {
   void declare(CLI::App& app) override {
     app::declare(app, options_, "LAYOUT");
     app.add_option("--out", out_, "Write the recording to this file while the run goes on")->type_name("FILE.topple");
+    app.add_flag("--profile", with_profile_, "Print where the time went, stage by stage of a step");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
   }
 
@@ -81,6 +83,9 @@ class RunVerb final : public Verb {
     if (!out_.empty() && out_.extension() != ".topple") {
       return complain("--out " + out_.string() + ": a recording's name ends in .topple; `topple export` makes other files of it.",
                       kBadInput);
+    }
+    if (with_profile_) {
+      options_.profile = &profile_;
     }
     GrowingFile file(out_);
     const std::expected<Recording, int> recording = run_layout(options_, [&file](const Recording& so_far) { return file.grow(so_far); });
@@ -102,6 +107,9 @@ class RunVerb final : public Verb {
     if (json_) {
       nlohmann::ordered_json json = summary_json(recording);
       json["recording"] = out_.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(out_.string());
+      if (with_profile_) {
+        json["profile"] = profile_json();
+      }
       std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
       return;
     }
@@ -114,9 +122,31 @@ class RunVerb final : public Verb {
       const std::uintmax_t size = std::filesystem::file_size(out_, unknown);
       std::printf("  %-12s %s, %s\n", "recording", out_.string().c_str(), byte_size(unknown ? 0 : size).c_str());
     }
+    if (with_profile_) {
+      print_profile();
+    }
+  }
+
+  nlohmann::ordered_json profile_json() const {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const Profile::Row& row : profile_.rows()) {
+      rows.push_back({{"stage", row.stage}, {"depth", row.depth}, {"calls", row.calls}, {"time_s", row.time}});
+    }
+    return rows;
+  }
+
+  void print_profile() const {
+    std::printf("\n  %-32s %12s %10s %7s\n", "stage", "calls", "time", "share");
+    const double whole = profile_.time();
+    for (const Profile::Row& row : profile_.rows()) {
+      const std::string stage = std::string(static_cast<std::size_t>(2 * row.depth), ' ') + std::string(row.stage);
+      std::printf("  %-32s %12s %8.2f s %5.1f %%\n", stage.c_str(), grouped(row.calls).c_str(), row.time, 100.0 * row.time / whole);
+    }
   }
 
   RunOptions options_;
+  bool with_profile_ = false;
+  Profile profile_;
   std::filesystem::path out_;
   bool json_ = false;
 };

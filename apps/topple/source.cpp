@@ -80,6 +80,7 @@ std::expected<Recording, int> run_layout(const RunOptions& options, const Watch&
   RunConfig config;
   config.until = options.until;
   config.threads = options.threads;
+  config.profile = options.profile;
   config.watch = [&](const RunProgress& progress, const Recording& recording) {
     bar.show(progress);
     return !interrupted() && (!watch || watch(recording));

@@ -11,6 +11,8 @@ namespace topple {
 
 /// Threads that share the work of one run: made where the run is (RunConfig::threads), handed on to who can use them.
 class Crew;
+/// Where the time of a run goes (topple/profile.h): asked for by RunConfig::profile.
+class Profile;
 
 /// Why something that a person asked for cannot be done, in sentences. May hold several lines, one a problem.
 struct Error {

@@ -145,7 +145,8 @@ struct RigidConfig {
   /// No brick stands or rests: every one is stepped from the beginning on, and the run never ends by itself. For tests of structures.
   bool every_brick_moves = false;
   // affects speed only
-  Crew* crew = nullptr;  ///< Null: the calling thread alone. A run sets it.
+  Crew* crew = nullptr;        ///< Null: the calling thread alone. A run sets it.
+  Profile* profile = nullptr;  ///< Null: nobody asks. A run sets it.
 };
 
 /// Choosing the config chooses the model.

@@ -108,7 +108,8 @@ struct RecorderConfig {
   // affects results (of the recording, never of the run)
   double tolerance = 0.002;  ///< How far a corner may be from where the model had it, as a fraction of the thickness.
   // affects speed only
-  Crew* crew = nullptr;  ///< Null: the calling thread alone. A run sets it.
+  Crew* crew = nullptr;        ///< Null: the calling thread alone. A run sets it.
+  Profile* profile = nullptr;  ///< Null: nobody asks. A run sets it.
 };
 
 /// Turns the frames of a model into the tracks of a recording.

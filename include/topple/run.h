@@ -36,8 +36,9 @@ struct RunConfig {
 
   // affects speed only
   int threads = 1;
+  Profile* profile = nullptr;  ///< Where the time of the run's stages is added; null: nowhere.
 
-  /// Called every few thousand steps with the recording so far; returning false stops the run cleanly.
+  /// Called some twenty times a second with the recording so far; returning false stops the run cleanly.
   std::function<bool(const RunProgress&, const Recording&)> watch;
 };
 

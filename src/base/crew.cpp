@@ -45,9 +45,19 @@ void await_change(const std::atomic<T>& word, T old) {
 }  // namespace
 
 struct Crew::Shared {
-  void take_pieces() {
-    for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < count; i = next.fetch_add(1, std::memory_order_relaxed)) {
-      call(context, i);
+  // A thread that comes late, since the machine had other things to do, finds that all was taken and keeps nobody waiting. What it read of
+  // a round counts only if the ticket still was of that round when it took a piece: then no other round can begin before that is done.
+  void take_pieces(std::uint32_t of_round) {
+    while (true) {
+      std::uint64_t taken = ticket.load(std::memory_order_acquire);
+      const auto piece = static_cast<std::size_t>(taken & kPieceMask);
+      const std::size_t all = count.load(std::memory_order_acquire);
+      void* const with = context.load(std::memory_order_acquire);
+      const Call work_on = call.load(std::memory_order_acquire);
+      if (taken >> kRoundShift != of_round || piece >= all) return;
+      if (!ticket.compare_exchange_weak(taken, taken + 1, std::memory_order_acq_rel)) continue;
+      work_on(with, piece);
+      if (done.fetch_add(1, std::memory_order_acq_rel) + 1 == all) done.notify_one();
     }
   }
 
@@ -55,22 +65,24 @@ struct Crew::Shared {
     std::uint32_t seen = 0;
     while (true) {
       await_change(round, seen);
-      ++seen;
-      if (ending) return;
-      take_pieces();
-      if (busy.fetch_sub(1, std::memory_order_acq_rel) == 1) busy.notify_one();
+      seen = round.load(std::memory_order_acquire);
+      if (ending.load(std::memory_order_acquire)) return;
+      take_pieces(seen);
     }
   }
 
-  // What a round is about; written before `round` grows, read after.
-  std::size_t count = 0;
-  void* context = nullptr;
-  Call call = nullptr;
-  bool ending = false;
+  static constexpr int kRoundShift = 32;
+  static constexpr std::uint64_t kPieceMask = 0xFFFFFFFF;
+
+  // What a round is about.
+  std::atomic<std::size_t> count = 0;
+  std::atomic<void*> context = nullptr;
+  std::atomic<Call> call = nullptr;
+  std::atomic<bool> ending = false;
   // Each on its own cache line: everybody looks at them.
   alignas(64) std::atomic<std::uint32_t> round = 0;
-  alignas(64) std::atomic<std::size_t> next = 0;
-  alignas(64) std::atomic<int> busy = 0;
+  alignas(64) std::atomic<std::uint64_t> ticket = 0;  // The round, and in the lower half its next piece.
+  alignas(64) std::atomic<std::size_t> done = 0;
   std::vector<std::thread> threads;
 };
 
@@ -82,7 +94,7 @@ Crew::Crew(int size) : size_(std::max(size, 1)) {
 
 Crew::~Crew() {
   if (shared_ == nullptr) return;
-  shared_->ending = true;
+  shared_->ending.store(true, std::memory_order_release);
   shared_->round.fetch_add(1, std::memory_order_release);
   shared_->round.notify_all();
   for (std::thread& thread : shared_->threads) thread.join();
@@ -90,16 +102,19 @@ Crew::~Crew() {
 
 void Crew::share(std::size_t count, void* context, Call call) {
   Shared& shared = *shared_;
-  shared.count = count;
-  shared.context = context;
-  shared.call = call;
-  shared.next.store(0, std::memory_order_relaxed);
-  shared.busy.store(size_ - 1, std::memory_order_relaxed);
-  shared.round.fetch_add(1, std::memory_order_release);
+  // First the ticket is closed: who has seen the one of the round before must not take a piece of it with what this round is about.
+  const std::uint32_t round = shared.round.load(std::memory_order_relaxed) + 1;
+  shared.ticket.store(std::uint64_t{round} << Shared::kRoundShift | Shared::kPieceMask, std::memory_order_relaxed);
+  shared.count.store(count, std::memory_order_release);
+  shared.context.store(context, std::memory_order_release);
+  shared.call.store(call, std::memory_order_release);
+  shared.done.store(0, std::memory_order_relaxed);
+  shared.ticket.store(std::uint64_t{round} << Shared::kRoundShift, std::memory_order_release);
+  shared.round.store(round, std::memory_order_release);
   shared.round.notify_all();
-  shared.take_pieces();
-  for (int left = shared.busy.load(std::memory_order_acquire); left != 0; left = shared.busy.load(std::memory_order_acquire)) {
-    await_change(shared.busy, left);
+  shared.take_pieces(round);
+  for (std::size_t done = shared.done.load(std::memory_order_acquire); done != count; done = shared.done.load(std::memory_order_acquire)) {
+    await_change(shared.done, done);
   }
 }
 

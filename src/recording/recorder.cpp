@@ -3,6 +3,7 @@
 #include "recording/free_tracks.h"
 #include "recording/hinged_fit.h"
 #include "recording/store.h"
+#include "topple/profile.h"
 
 namespace topple {
 namespace {
@@ -23,11 +24,15 @@ bool is_finite(const HingedState& state) { return std::isfinite(state.angle + st
 
 /// The tracks that are not finished. Those that are closed leave their buffers to the next.
 struct Recorder::Open {
-  Open(Recording::Store& the_store, Crew* the_crew)
-      : store(the_store), crew(the_crew != nullptr ? *the_crew : alone), slot(the_store.layout.bricks.size(), kClosed) {}
+  Open(Recording::Store& the_store, const RecorderConfig& config)
+      : store(the_store),
+        crew(config.crew != nullptr ? *config.crew : alone),
+        profile(config.profile),
+        slot(the_store.layout.bricks.size(), kClosed) {}
 
   HingedFit& begin(BrickId brick, double time, HingedState state);
   void wake(const HingedMotion& motion);
+  void take_tracks();
   void take_kinks();
   void take_hinged();
   void close_long_paused();
@@ -38,6 +43,7 @@ struct Recorder::Open {
   Recording::Store& store;
   Crew alone{1};
   Crew& crew;
+  Profile* profile;
   Frame frame;
   double time_step = 0.0;
   std::int64_t step = 0;
@@ -73,6 +79,14 @@ HingedFit& Recorder::Open::begin(BrickId brick, double time, HingedState state) 
   HingedFit& fit = fits[static_cast<std::size_t>(index)];
   fit.open(brick, time, state, tolerance, again);
   return fit;
+}
+
+void Recorder::Open::take_tracks() {
+  const Timed timed(profile, Stage::tracks);
+  take_kinks();
+  take_hinged();
+  free.take(frame, time_step, store.layout, store.tolerance, store.tracks, crew);
+  if (step % kStepsBetweenCloses == 0) close_long_paused();
 }
 
 void Recorder::Open::take_kinks() {
@@ -168,7 +182,7 @@ void Recorder::Open::take_hash(const Model& model) {
 }
 
 Recorder::Recorder(Recording& recording, const RecorderConfig& config)
-    : recording_(recording), open_(std::make_unique<Open>(*recording.store_, config.crew)) {
+    : recording_(recording), open_(std::make_unique<Open>(*recording.store_, config)) {
   recording.store_->tolerance = config.tolerance;
 }
 
@@ -177,13 +191,14 @@ Recorder::~Recorder() = default;
 void Recorder::take(const Model& model) {
   Open& open = *open_;
   open.frame.energy_wanted = model.step_count() >= open.next_energy;
-  model.read(open.frame);
+  {
+    const Timed timed(open.profile, Stage::read);
+    model.read(open.frame);
+  }
   open.time_step = model.time_step();
   ++open.step;
-  open.take_kinks();
-  open.take_hinged();
-  open.free.take(open.frame, open.time_step, open.store.layout, open.store.tolerance, open.store.tracks, open.crew);
-  if (open.step % kStepsBetweenCloses == 0) open.close_long_paused();
+  open.take_tracks();
+  const Timed timed(open.profile, Stage::events);
   for (const Event& event : model.events()) open.store.add_event(event);
   open.take_energy(model.step_count());
   open.take_hash(model);

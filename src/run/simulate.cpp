@@ -1,17 +1,21 @@
 // The only loop.
+#include <algorithm>
+#include <chrono>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "base/crew.h"
 #include "run/run_end.h"
+#include "topple/profile.h"
 #include "topple/run.h"
 
 namespace topple {
 
 namespace {
 
-constexpr std::int64_t kStepsBetweenWatches = 4096;
+constexpr std::int64_t kMostSteps = 4096;
+constexpr std::chrono::milliseconds kBetweenWatches{50};
 
 /// What the events tell while they come: how far the wave is, and where it stopped.
 struct Story {
@@ -39,6 +43,7 @@ struct Simulation::State {
 
   RecorderConfig shared(RecorderConfig recorder_config) {
     recorder_config.crew = &crew;
+    recorder_config.profile = config.profile;
     return recorder_config;
   }
 
@@ -50,13 +55,18 @@ struct Simulation::State {
   Recording recording;
   Recorder recorder;
   std::unique_ptr<Model> model;
+  bool names_stages = false;  // The model adds its own to the profile.
   Story story;
   RunEnd end;  // Still running.
   RunProgress progress;
 };
 
 void Simulation::State::step() {
-  const Status status = model->step();
+  Status status;
+  {
+    const Timed timed(names_stages ? nullptr : config.profile, Stage::model);
+    status = model->step();
+  }
   recorder.take(*model);
   story.take(model->events());
   progress = {recording.layout().brick_count(), story.arrived, model->step_count(),
@@ -93,7 +103,11 @@ Result<Simulation> Simulation::start(Layout layout, const ModelConfig& model_con
   simulation.state_ = std::make_unique<State>(std::move(layout), std::move(recipe), config);
   State& state = *simulation.state_;
   ModelConfig shared = model_config;
-  if (auto* rigid = std::get_if<RigidConfig>(&shared)) rigid->crew = &state.crew;
+  if (auto* rigid = std::get_if<RigidConfig>(&shared)) {
+    rigid->crew = &state.crew;
+    rigid->profile = config.profile;
+    state.names_stages = true;
+  }
   auto made = make_model(state.recording.layout(), shared);
   if (!made) return std::unexpected(made.error());
   state.model = std::move(*made);
@@ -121,8 +135,19 @@ Recording Simulation::take() { return std::move(state_->recording); }
 Result<Recording> simulate(Layout layout, const ModelConfig& model_config, const RunConfig& config) {
   Result<Simulation> simulation = Simulation::start(std::move(layout), model_config, config);
   if (!simulation) return std::unexpected(simulation.error());
-  while (simulation->advance(kStepsBetweenWatches)) {
-    if (config.watch && !config.watch(simulation->progress(), simulation->recording())) simulation->stop();
+  if (!config.watch) {
+    while (simulation->advance(kMostSteps)) {
+    }
+    return simulation->take();
+  }
+  // A step takes from a microsecond to a second.
+  std::int64_t steps = 1;
+  for (auto before = std::chrono::steady_clock::now(); simulation->advance(steps); before = std::chrono::steady_clock::now()) {
+    const auto took = std::chrono::steady_clock::now() - before;
+    if (took < kBetweenWatches / 2) steps = std::min(2 * steps, kMostSteps);
+    if (took > kBetweenWatches) steps = std::max(steps / 2, std::int64_t{1});
+    const Timed timed(config.profile, Stage::watch);
+    if (!config.watch(simulation->progress(), simulation->recording())) simulation->stop();
   }
   return simulation->take();
 }

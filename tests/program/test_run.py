@@ -37,6 +37,14 @@ class Run(ProgramTest):
         layout = self.write("row.toml", ROW)
         self.assertEqual(self.json_of(layout)["hash"], self.json_of(layout, "--threads", 3)["hash"])
 
+    def test_the_profile_names_the_stages_of_a_step(self):
+        layout = self.write("row.toml", ROW)
+        summary = self.json_of(layout, "--model", "rigid", "--profile")
+        stages = {row["stage"]: row for row in summary["profile"]}
+        self.assertEqual(stages["advance fronts"]["calls"], summary["steps"])
+        self.assertEqual(stages["in a plane"]["depth"], 1)
+        self.assertRegex(self.succeeds("run", layout, "--profile").stdout, r"stage +calls +time +share\n +step the model +\d+ ")
+
     def test_a_wave_that_dies_is_no_failure(self):
         summary = self.json_of(self.write("row.toml", BROKEN_ROW))
         self.assertEqual((summary["fallen"], summary["standing"]), (1, 11))

@@ -132,6 +132,7 @@ void PlaneFront::mark_borne_by(int place) {
 }
 
 void PlaneFront::list_neighbours(int place) {
+  const Timed timed(world_.profile, Stage::plane_lists);
   const BrickId id = bricks_[static_cast<std::size_t>(place)].id;
   const double radius = 0.5 * norm(2.0 * half_extents(world_.layout.kind_of(id)));
   bricks_[static_cast<std::size_t>(place)].listed_at = bricks_[static_cast<std::size_t>(place)].box.place;
@@ -313,6 +314,7 @@ void PlaneFront::let_lean(PlaneTouch& touch, bool a_rests) const {
 }
 
 void PlaneFront::retire(double time) {
+  const Timed timed(world_.profile, Stage::plane_rest);
   const Tolerances& limits = world_.tolerances;
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
     PlaneBrick& brick = bricks_[i];

@@ -34,6 +34,7 @@ class RigidModel final : public Model {
         crew_(config.crew != nullptr ? *config.crew : alone_) {
     world_.step = step_;
     world_.every_brick_moves = config.every_brick_moves;
+    world_.profile = config.profile;
     plan_pushes();
     if (config.every_brick_moves) wake_all();
   }
@@ -118,6 +119,7 @@ Wave& RigidModel::front_of(BrickId brick) {
 
 // Bricks that are pushed in this step belong to a front from its beginning.
 void RigidModel::begin_pushes(double end) {
+  const Timed timed(world_.profile, Stage::pushes);
   last_moment_ = next_moment_;
   while (last_moment_ < moments_.size() && moments_[last_moment_].time < end) {
     const PushMoment& moment = moments_[last_moment_++];
@@ -159,6 +161,7 @@ void RigidModel::join(std::size_t number) {
 
 // Fronts within each other's reach become one.
 void RigidModel::join_fronts() {
+  const Timed timed(world_.profile, Stage::join);
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     if (fronts_[i] != nullptr && fronts_[i]->must_join()) join(i);
   }
@@ -166,6 +169,7 @@ void RigidModel::join_fronts() {
 
 // Parts of a front that no longer reach each other become fronts of their own, and straight rows go on in their plane.
 void RigidModel::part_fronts() {
+  const Timed timed(world_.profile, Stage::part);
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     if (fronts_[i] == nullptr || !fronts_[i]->general()) continue;
     auto* front = static_cast<Front*>(fronts_[i].get());
@@ -219,8 +223,10 @@ void RigidModel::plan_turns() {
 }
 
 void RigidModel::advance_fronts(double begin) {
+  const Timed all(world_.profile, Stage::advance);
   crew_.each(order_.size(), [&](std::size_t i) {
     Turn& turn = turns_[order_[i]];
+    const Timed timed(world_.profile, turn.front->general() ? Stage::free_fronts : Stage::plane_fronts);
     turn.front->advance(begin, turn.moments);
     Hash hash;
     turn.front->add_to(hash);
@@ -232,6 +238,7 @@ void RigidModel::advance_fronts(double begin) {
 
 // What the fronts did becomes known to all, in the order of their numbers.
 void RigidModel::settle() {
+  const Timed timed(world_.profile, Stage::enter);
   for (const Turn& turn : turns_) turn.front->enter_leavings();
   for (Turn& turn : turns_) {
     turn.front->enter_takings(true);
@@ -258,6 +265,7 @@ Status RigidModel::step() {
 }
 
 void RigidModel::gather() {
+  const Timed timed(world_.profile, Stage::gather);
   events_.clear();
   for (const Turn& turn : turns_) {
     events_.insert(events_.end(), turn.front->events().begin(), turn.front->events().end());

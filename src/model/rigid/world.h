@@ -7,6 +7,7 @@
 
 #include "model/rigid/neighbours.h"
 #include "topple/model.h"
+#include "topple/profile.h"
 
 namespace topple::rigid {
 
@@ -71,6 +72,7 @@ struct World {
   bool stacked = false;         ///< Some bricks stand on others.
   bool balls = false;           ///< Some are balls.
   bool every_brick_moves = false;
+  Profile* profile = nullptr;
 
   /// Where a brick may be in its front's list. Two fronts may take one brick in one step, before it is known whose it is; so a hint is
   /// believed only where the list agrees with it.
