@@ -29,7 +29,7 @@ export interface PageInterface {
   /** Where the still is, 0 to 1. */
   readonly still: number;
   /** What the page's own code cost in the last frames [ms]. */
-  readonly frameCosts: readonly number[];
+  readonly frameCosts: number[];
   seek(time: number): void;
   choose(brick: number): void;
   setWay(way: Way): void;
@@ -41,6 +41,11 @@ export interface PageInterface {
   drawnHeight(brick: number): number;
   /** Middle of a brick in the page [CSS px], null out of sight. */
   placeOf(brick: number): { x: number; y: number } | null;
+  /** Where bricks were put down: x y z of each [m], and their headings [rad]. */
+  readonly feet: Float64Array;
+  readonly headings: Float64Array;
+  /** Turns the camera about what it looks at [rad]. */
+  swing(angle: number): void;
   /** Looks from a place at a place [m, in the layout's axes]. */
   lookFrom(position: [number, number, number], target: [number, number, number]): void;
   readonly mode: Mode;
@@ -82,6 +87,8 @@ export function installPageInterface(player: Player, stage: Stage, studio: Studi
     get chosen() { return player.chosen; },
     get fallen() { return player.loaded ? lastNotOver(player.loaded.falls, player.time) + 1 : 0; },
     get still() { return stage.stillPart; },
+    get feet() { return player.recording?.bricks.foot ?? new Float64Array(0); },
+    get headings() { return player.recording?.bricks.heading ?? new Float64Array(0); },
     get frameCosts() { return stage.costs; },
     get mode() { return page.mode(); },
     get text() { return studio.text; },
@@ -127,6 +134,11 @@ export function installPageInterface(player: Player, stage: Stage, studio: Studi
     },
     lookFrom: (position, target) => {
       stage.lookFrom(position, target);
+    },
+    swing: (angle) => {
+      stage.view?.rig.swing(angle);
+      stage.view?.changed();
+      stage.wake();
     },
     finishStill: async (frames) => {
       stage.drawFrame(0);
