@@ -3,6 +3,7 @@
 import { mkdir } from 'node:fs/promises';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { makeFragment } from '../../src/draw/link.ts';
 import { kOut, launch, makeRecording, recordingOf, serve, type Site } from './browser.ts';
 
 let browser: Browser;
@@ -74,6 +75,25 @@ describe('what cannot be shown is said in words', () => {
     await page.screenshot({ path: `${kOut}/no-webgl.png` });
     await plain.close();
   });
+});
+
+test('a link opened without WebGL: a sentence, the layout is there, it can be run, and the next visit has it too', async () => {
+  const text = '[[push]]\nangular_speed_rad_s = 4\n\n[[row]]\ncount = 9\ngap_mm = 16.5\n\n[model]\nname = "hinge"\n';
+  const bare = await serve(null);
+  const plain = await launch(false);
+  const page = await plain.newPage({ viewport: { width: 1100, height: 640 } });
+  await page.goto(`${bare.url}${await makeFragment({ text, hash: '' })}`);
+  await page.waitForFunction(() => window.topple?.drawn === 9 && window.topple.settled);
+  expect(await page.locator('.empty').innerText()).toMatch(/no WebGL 2[\s\S]*Layouts can be opened and run/);
+  await page.getByRole('button', { name: /Topple/ }).click();
+  await page.waitForFunction(() => window.topple.hash !== '');
+  await page.keyboard.press('End');
+  await expect.poll(() => page.locator('[data-test=read-out]').innerText()).toMatch(/9 \/ 9/);
+  await page.goto('about:blank');
+  await page.goto(bare.url);
+  await expect.poll(() => page.evaluate(() => window.topple?.text)).toBe(text);
+  await plain.close();
+  await bare.close();
 });
 
 describe('at every size', () => {
