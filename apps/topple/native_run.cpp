@@ -81,7 +81,9 @@ std::expected<NextBytes, Refusal> begin(const std::string& text, int threads, co
   if (!layout) return std::unexpected(Refusal{kBadLayout, layout.error().message});
   const Result<ModelConfig> model = model_config(*layout);
   if (!model) return std::unexpected(Refusal{kBadLayout, model.error().message});
-  Result<Simulation> simulation = Simulation::start(std::move(*layout), *model, {.threads = threads});
+  RunConfig config;
+  config.threads = threads;
+  Result<Simulation> simulation = Simulation::start(std::move(*layout), *model, config);
   if (!simulation) return std::unexpected(Refusal{kBadLayout, simulation.error().message});
   auto run = std::make_shared<NativeRun>(std::move(*simulation), std::move(place));
   return [run](std::string& bytes) { return run->next(bytes); };
