@@ -7,9 +7,11 @@ namespace topple::rigid {
 
 namespace {
 
-constexpr double kWorst = 0.7;   // States that are wrong by this share of the worst near them change together.
-constexpr int kNear = 1;         // That many bricks to each side.
-constexpr int kIterations = 20;  // Where it settles at all, two or three do.
+constexpr double kWorst = 0.7;  // States that are wrong by this share of the worst near them change together.
+constexpr int kNear = 1;        // That many bricks to each side.
+// At most so many solutions, and so many more a body: along a wave a few do; a structure settles brick by brick when it is put down.
+constexpr int kIterations = 20;
+constexpr int kPerBody = 2;
 
 Vec3 linear(const Column<6>& v) { return {v[0], v[1], v[2]}; }
 Vec3 angular(const Column<6>& v) { return {v[3], v[4], v[5]}; }
@@ -83,7 +85,7 @@ void ChainSolver::begin(std::span<const Body> bodies, std::span<const ContactRow
     as = {};
     as.state = row.state;
     if (!as.state.slides) continue;
-    // Where it slides now tells which way.
+    // Where it slides now tells which way; if that is too slow to tell, the friction that it had.
     Vec3 slip = row.bias + guess[static_cast<std::size_t>(row.a)].velocity + cross(guess[static_cast<std::size_t>(row.a)].spin, row.arm_a);
     if (row.b != kFloor) {
       const Twist& b = guess[static_cast<std::size_t>(row.b)];
@@ -91,12 +93,14 @@ void ChainSolver::begin(std::span<const Body> bodies, std::span<const ContactRow
     }
     slip = slip - dot(slip, row.normal) * row.normal;
     const double speed = norm(slip), limit = row.friction * (row.base + row.n);
-    if (row.tangent_stiffness * speed <= limit || speed == 0.0) {
+    const bool slow = row.tangent_stiffness * speed <= limit || speed == 0.0;
+    const double rubbed = norm(row.friction_impulse);
+    if (slow && rubbed == 0.0) {
       as.state.slides = false;
       continue;
     }
-    as.way = (1.0 / speed) * slip;
-    as.drag = std::min(limit / speed, row.tangent_stiffness);
+    as.way = slow ? (-1.0 / rubbed) * row.friction_impulse : (1.0 / speed) * slip;
+    as.drag = slow ? row.tangent_stiffness : limit / speed;
     as.coupled = row.n > 0.0;  // The limit of one that has just begun to touch is not known yet.
     as.limit = limit;
   }
@@ -173,7 +177,8 @@ void ChainSolver::settle_row(const ContactRow& row, const Vec3& slip, double tol
   const double speed = norm(across);
   const bool beyond = row.tangent_stiffness * speed > limit;
   const bool back = as.state.slides && dot(across, as.way) < 0.0;
-  as.should.slides = beyond && !back;
+  // What slides goes on sliding, however slowly, until it would slide back.
+  as.should.slides = (beyond || (as.state.slides && speed > 0.0)) && !back;
   if (as.should.slides) {
     const Vec3 pull = friction - row.mass * across;
     const double size = norm(pull);
@@ -185,7 +190,7 @@ void ChainSolver::settle_row(const ContactRow& row, const Vec3& slip, double tol
     as.wrong = std::max(as.wrong, as.state.slides ? speed : (row.tangent_stiffness * speed - limit) / row.mass);
   } else if (as.should.slides) {
     const Vec3 truly = (-limit / speed) * across;
-    as.turned = norm(truly - friction) > tolerance * row.mass;
+    as.turned = beyond && norm(truly - friction) > tolerance * row.mass;
   }
   as.impulse = as.impulse + friction;
 }
@@ -252,7 +257,8 @@ bool ChainSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, std:
   std::size_t from = 0;
   bool settled = false;
   double least = 1e300;
-  for (int i = 0; i < kIterations && !settled; ++i) {
+  const int most = kIterations + kPerBody * static_cast<int>(order_.bodies().size());
+  for (int i = 0; i < most && !settled; ++i) {
     if (!solve_system(from)) return false;
     settled = settle(rows, tolerance);
     double score = 0.0;
