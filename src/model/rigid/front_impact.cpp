@@ -236,8 +236,9 @@ bool Front::closes_fast() const {
 
 // New points touch: the blow acts together with half a kick for the drift of `next` that follows. A bounce, which needs the blow by itself,
 // comes before that. The drift before was planned for `whole`.
-void Front::take_blow(double /*whole*/, double next) {
-  const bool bounced = blow(false);
+void Front::take_blow(double next, bool ends_step) {
+  // At the end of a step others read the velocities right after it, and forces may act then that did not before.
+  const bool bounced = blow(ends_step && struck_now_.empty());
   plan(next);
   for (Touch& touch : touches_) touch.load = 0.0;
   if (bounced) return;

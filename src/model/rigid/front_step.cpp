@@ -130,7 +130,7 @@ double Front::part(double begin, double time, bool may_cut) {
   wake_struck(now);
   const double next = cut < time ? time - cut : world_.step;
   if (!struck_now_.empty() || (fresh && (cut < time || closes_fast()))) {
-    take_blow(time, next);
+    take_blow(next, cut == time);
     note_struck(now);
     note_landed(now);
   } else if (cut == time) {

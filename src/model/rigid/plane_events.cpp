@@ -119,6 +119,19 @@ void PlaneFront::note_rest(int place, double now) {
   events_.push_back(plain_event(EventKind::rested, now, brick.id, by));
 }
 
+// Of a brick that has been given a velocity: the points that do not part go on to touch.
+void PlaneFront::keep_what_stays(PlaneTouch& touch, int place) const {
+  const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+  const double side = touch.a == place ? 1.0 : -1.0, slow = 0.5 * world_.gravity * world_.step;
+  for (int k = 0; k < touch.now.count; ++k) {
+    const PlanePoint& point = touch.now.points[static_cast<std::size_t>(k)];
+    const Column<3> j =
+        rate(side * touch.now.normal_x, side * touch.now.normal_z, point.x - brick.box.place.x, point.z - brick.box.place.z);
+    PlaneMemory& memory = touch.memory[static_cast<std::size_t>(k)];
+    memory = {.active = memory.active && product_of(j, brick.velocity) <= slow};
+  }
+}
+
 void PlaneFront::begin_push(const Push& push, double now) {
   const int place = place_of(push.brick);
   PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
@@ -137,7 +150,7 @@ void PlaneFront::begin_push(const Push& push, double now) {
     brick.velocity = {-speed * toe.z, speed * toe.x, speed};
     ledger_.push_work += kinetic_energy(brick) - before;
     for (PlaneTouch& touch : touches_) {
-      if (touch.a == place || touch.b == place) touch.memory = {};
+      if (touch.a == place || touch.b == place) keep_what_stays(touch, place);
     }
   } else if (const auto* force = std::get_if<ForcePush>(&push.how)) {
     forces_.push_back({push.brick, way * force->force, -way * along, force->height - up, push.at + force->duration});

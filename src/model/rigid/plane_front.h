@@ -131,11 +131,13 @@ class PlaneFront final : public Wave {
   PlaneBox box_at(const PlaneBrick& brick, double time, double whole) const;
   void accept_drift(double cut, double whole);
   bool activate_new_points();
-  void take_blow(double whole, double next);
+  void take_blow(double whole, double next, bool ends_step);
+  void stop_at_once();
   bool blow(bool always);
   void give_back();
   void bounce_by(double share);
 
+  void keep_what_stays(PlaneTouch& touch, int place) const;
   void begin_push(const Push& push, double now);
   void note_arrivals(double begin, double time, double whole);
   void note_struck(double now);

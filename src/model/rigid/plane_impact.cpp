@@ -229,7 +229,7 @@ bool PlaneFront::closes_fast() const {
 
 // New points touch: the blow acts together with half a kick for the drift of `next` that follows. A bounce, which needs the blow by itself,
 // comes before that. The drift before was planned for `whole`.
-void PlaneFront::take_blow(double whole, double next) {
+void PlaneFront::take_blow(double whole, double next, bool ends_step) {
   const bool bounced = blow(false);
   // The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
   for (PlaneBrick& brick : bricks_) {
@@ -238,8 +238,29 @@ void PlaneFront::take_blow(double whole, double next) {
   plan(next, struck_now_.empty() ? nullptr : &strike_);
   for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].load = 0.0;
   if (bounced) return;
+  if (ends_step) return stop_at_once();
   for (PlaneBrick& brick : bricks_) {
     if (brick.moving) brick.velocity = brick.middle - (0.5 * next) * brick.acceleration;
+  }
+}
+
+// The velocities right after a blow at the end of a step, where others read them: forces may act now that did not before it.
+void PlaneFront::stop_at_once() {
+  compression_ = rows_;
+  for (PlaneRow& row : compression_) {
+    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    row.bias = std::max(touch.now.points[static_cast<std::size_t>(row.point)].separation, 0.0) / world_.step;
+    row.tangent_bias = 0.0;
+  }
+  before_blow_ = unknowns_;
+  for (const PlaneBrick& brick : bricks_) {
+    if (!brick.moving) continue;
+    PlaneUnknown& unknown = before_blow_[static_cast<std::size_t>(brick.unknown)];
+    unknown.velocity = unknown.guess = brick.velocity;
+  }
+  solver_.solve(before_blow_, compression_);
+  for (PlaneBrick& brick : bricks_) {
+    if (brick.moving) brick.velocity = before_blow_[static_cast<std::size_t>(brick.unknown)].velocity;
   }
 }
 

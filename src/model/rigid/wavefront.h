@@ -103,7 +103,7 @@ class Front final : public Wave {
   double thinner(const Touch& touch) const;
   bool activate_new_points();
   bool closes_fast() const;
-  void take_blow(double whole, double next);
+  void take_blow(double next, bool ends_step);
   bool blow(bool always);
   double moving_energy() const;
   void give_back(double before);
