@@ -46,6 +46,7 @@ struct PlaneMemory {
   bool active = false;
   bool fresh = false;                           ///< Became active at the end of this part of the step.
   PointState kick, blow;                        ///< What it did in the last kick and in the last blow: the guess for the next one.
+  double overlap = 0.0;                         ///< What is left of the overlap that its impact found [m].
   double normal = 0.0, tangent = 0.0;           ///< What it carried in the last kick [N].
   double leaning = 0.0, leaning_tangent = 0.0;  ///< What a brick that rests and leans on one that moves goes on to press with [N].
 };

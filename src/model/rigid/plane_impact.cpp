@@ -199,7 +199,8 @@ bool PlaneFront::activate_new_points() {
       if (memory.active || touch.now.points[static_cast<std::size_t>(k)].separation > near) continue;
       // It slips as the other point of the pair does, for a guess.
       const PlaneMemory& other = touch.memory[static_cast<std::size_t>(1 - k)];
-      memory = {.active = true, .fresh = true};
+      const double separation = touch.now.points[static_cast<std::size_t>(k)].separation;
+      memory = {.active = true, .fresh = true, .overlap = std::max(-separation, 0.0)};
       if (touch.now.count == 2 && other.active && !other.fresh) memory.kick.grip = other.kick.grip;
       any = true;
     }

@@ -22,6 +22,10 @@ constexpr double kCompliance = 1e-4;
 // So many bricks behind the one that was struck do the same after every strike; those farther back go by what each did before.
 constexpr int kLedByHead = 2;
 
+// An impact is located to a part of the thickness, and what the bricks overlap then goes by a tenth a step: the velocity at which it goes
+// is energy that nobody gave.
+constexpr double kOverlapLeft = 0.9;
+
 constexpr int kFloorOf = 1 << 20;  // In a pattern: the floor.
 
 double response(const PlaneBrick& brick, const Column<3>& j) {
@@ -160,8 +164,10 @@ void PlaneFront::set_bias(double time) {
     }
     const double nx = touch.now.normal_x, nz = touch.now.normal_z;
     const double normal = nx * bend_x + nz * bend_z + 2.0 * turning * (nz * slip_x - nx * slip_z);
-    // An overlap goes within a step, but never so fast that it would throw the bricks apart.
-    const double gap = point.separation > 0.0 ? point.separation / time : std::max(point.separation / world_.step, -slow);
+    // An overlap goes within a step, but never so fast that it would throw the bricks apart; the one that an impact left goes slowly.
+    const double left = kOverlapLeft * touch.memory[static_cast<std::size_t>(row.point)].overlap;
+    const double overlap = std::min(point.separation + left, 0.0);
+    const double gap = point.separation > 0.0 ? point.separation / time : std::max(overlap / world_.step, -slow);
     row.bias = gap + 0.5 * time * normal;
     row.tangent_bias = 0.5 * time * (nz * bend_x - nx * bend_z);
   }
@@ -283,6 +289,7 @@ void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states
     PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
     PlaneMemory& memory = touch.memory[static_cast<std::size_t>(row.point)];
     touch.impulse += row.normal;
+    memory.overlap *= time > 0.0 ? kOverlapLeft : 1.0;
     memory.*states = row.state;
     if (memory.fresh) memory.kick = row.state;
     memory.normal = time > 0.0 ? row.normal / time : 0.0;
