@@ -15,7 +15,7 @@ constexpr double kLeans = 0.1;
 
 // What rests goes on to lean on what moves, so it may rest after this share of the time that others have to wait.
 constexpr double kPatience = 0.5;
-constexpr double kRetire = 1.5;
+constexpr double kRetire = 1.25;
 
 // How far the farthest corner has moved [m].
 double displacement(const PlaneBrick& brick, const PlaneVec& from) {
