@@ -45,6 +45,10 @@ class Box2DWorld final : public peers::World {
         b2Vec2(static_cast<float>(0.5 * speed * scene_.height), static_cast<float>(0.5 * speed * scene_.thickness)));
   }
   void step() override { world_.Step(static_cast<float>(scene_.time_step), 8, 3); }
+  std::array<double, 3> middle(std::size_t index) const override {
+    const b2Vec2 place = bodies_[index]->GetPosition();
+    return {static_cast<double>(place.x), 0.0, static_cast<double>(place.y)};
+  }
   double upright(std::size_t index) const override { return static_cast<double>(bodies_[index]->GetTransform().q.c); }
 
  private:

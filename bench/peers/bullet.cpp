@@ -42,10 +42,11 @@ class BulletWorld final : public peers::World {
     const peers::Brick& brick = scene_.bricks[index];
     btRigidBody::btRigidBodyConstructionInfo info(1, nullptr, &box_, inertia_);
     info.m_startWorldTransform.setIdentity();
-    info.m_startWorldTransform.setOrigin(btVector3(number(brick.x), number(brick.y), number(0.5 * scene_.height)));
+    info.m_startWorldTransform.setOrigin(btVector3(number(brick.x), number(brick.y), number(brick.z + 0.5 * scene_.height)));
     info.m_startWorldTransform.setRotation(btQuaternion(btVector3(0, 0, 1), number(brick.heading)));
     info.m_friction = number(std::sqrt(scene_.brick_friction));
     bodies_[index] = std::make_unique<btRigidBody>(info);
+    if (!scene_.sleeps) bodies_[index]->setActivationState(DISABLE_DEACTIVATION);
     world_.addRigidBody(bodies_[index].get());
   }
   void remove(std::size_t index) override {
@@ -61,6 +62,10 @@ class BulletWorld final : public peers::World {
                                       btVector3(0, 0, number(0.5 * speed * scene_.thickness)));
   }
   void step() override { world_.stepSimulation(number(scene_.time_step), 0); }
+  std::array<double, 3> middle(std::size_t index) const override {
+    const btVector3& place = bodies_[index]->getWorldTransform().getOrigin();
+    return {static_cast<double>(place.x()), static_cast<double>(place.y()), static_cast<double>(place.z())};
+  }
   double upright(std::size_t index) const override {
     return static_cast<double>(bodies_[index]->getWorldTransform().getBasis().getColumn(2).z());
   }

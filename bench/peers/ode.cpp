@@ -39,7 +39,7 @@ class OdeWorld final : public peers::World {
     geoms_[index] = dCreateBox(space_, scene_.thickness, scene_.width, scene_.height);
     dBodySetMass(bodies_[index], &mass_);
     dGeomSetBody(geoms_[index], bodies_[index]);
-    dBodySetPosition(bodies_[index], brick.x, brick.y, 0.5 * scene_.height);
+    dBodySetPosition(bodies_[index], brick.x, brick.y, brick.z + 0.5 * scene_.height);
     dQuaternion turn;
     dQFromAxisAndAngle(turn, 0, 0, 1, brick.heading);
     dBodySetQuaternion(bodies_[index], turn);
@@ -59,6 +59,10 @@ class OdeWorld final : public peers::World {
     dSpaceCollide(space_, this, &OdeWorld::meet);
     dWorldQuickStep(world_, scene_.time_step);
     dJointGroupEmpty(contacts_);
+  }
+  std::array<double, 3> middle(std::size_t index) const override {
+    const dReal* place = dBodyGetPosition(bodies_[index]);
+    return {place[0], place[1], place[2]};
   }
   double upright(std::size_t index) const override { return dBodyGetRotation(bodies_[index])[10]; }
 

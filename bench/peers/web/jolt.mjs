@@ -51,16 +51,17 @@ function make(scene) {
   const bodies = [];
   return {
     add(index) {
-      const { x, y, heading } = scene.bricks[index];
-      const place = new Jolt.RVec3(x, y, 0.5 * scene.height);
+      const { x, y, z, heading } = scene.bricks[index];
+      const place = new Jolt.RVec3(x, y, z + 0.5 * scene.height);
       const turn = new Jolt.Quat(0, 0, Math.sin(0.5 * heading), Math.cos(0.5 * heading));
       const creation = new Jolt.BodyCreationSettings(shape, place, turn, Jolt.EMotionType_Dynamic, kMoving);
       creation.mFriction = scene.brickFriction;
       creation.mRestitution = 0;
+      creation.mAllowSleeping = scene.sleeps;
       creation.mLinearDamping = 0;
       creation.mAngularDamping = 0;
       bodies[index] = bodyInterface.CreateBody(creation);
-      bodyInterface.AddBody(bodies[index].GetID(), index === 0 ? Jolt.EActivation_Activate : Jolt.EActivation_DontActivate);
+      bodyInterface.AddBody(bodies[index].GetID(), scene.pushed.has(index) || !scene.sleeps ? Jolt.EActivation_Activate : Jolt.EActivation_DontActivate);
       for (const part of [place, turn, creation]) Jolt.destroy(part);
     },
     remove(index) {
@@ -74,6 +75,10 @@ function make(scene) {
     },
     step() {
       jolt.Step(scene.timeStep, 1);
+    },
+    middle(index) {
+      const place = bodies[index].GetPosition();
+      return [place.GetX(), place.GetY(), place.GetZ()];
     },
     upright(index) {
       const turn = bodies[index].GetRotation();

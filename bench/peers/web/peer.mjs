@@ -1,5 +1,5 @@
 // What both WebAssembly engines do here: the same bricks, pushed and timed as peer.cpp does it for the others.
-// usage: node ENGINE.mjs BRICKS RATE_HZ WINDOW LIMIT_S, see peer.cpp.
+// usage: node ENGINE.mjs BRICKS RATE_HZ WINDOW LIMIT_S [STAND_S], see peer.cpp.
 import { readFileSync } from 'node:fs';
 
 const kArrivalTilt = Math.PI / 18;
@@ -10,12 +10,19 @@ const kAhead = 8;
 function readScene(path, scale, rate) {
   const lines = readFileSync(path, 'utf8').trim().split('\n');
   const [height, width, thickness] = lines[0].split(' ').map((word) => Number(word) * scale);
-  const bricks = lines.slice(1).map((line) => {
-    const [x, y, heading] = line.split(' ').map(Number);
-    return { x: x * scale, y: y * scale, heading };
+  const rows = [];
+  let last;
+  const bricks = lines.slice(1).map((line, index) => {
+    const [x, y, z, heading, row] = line.split(' ').map(Number);
+    if (row !== last) rows.push(index);
+    last = row;
+    return { x: x * scale, y: y * scale, z: z * scale, heading };
   });
+  const pushed = new Set(rows);
+  rows.push(bricks.length);
   // Gravity stays, so times grow as the root of lengths.
-  return { height, width, thickness, bricks, gravity: 9.81, timeStep: Math.sqrt(scale) / rate, brickFriction: 0.2, floorFriction: 0.5 };
+  const timeStep = Math.sqrt(scale) / rate;
+  return { height, width, thickness, bricks, rows, pushed, gravity: 9.81, timeStep, brickFriction: 0.2, floorFriction: 0.5 };
 }
 
 const cpuNow = () => {
@@ -24,43 +31,80 @@ const cpuNow = () => {
 };
 const tilt = (world, brick) => Math.acos(Math.min(1, Math.max(-1, world.upright(brick))));
 
-function follow(world, scene, rate, window, limit) {
-  const count = scene.bricks.length;
+// The wave along one row, from brick to brick in the order of the file.
+function makeWave(world, first, end, window) {
   const arrivals = [];
-  let [added, removed, lastTilt, last] = [0, 0, 0, 0];
-  const addUpTo = (end) => {
-    while (added < Math.min(count, end)) world.add(added++);
+  let [added, removed, lastTilt] = [first, first, 0];
+  const addUpTo = (limit) => {
+    while (added < Math.min(end, limit)) world.add(added++);
   };
-  addUpTo(window === 0 ? count : kAhead);
-  const { heading } = scene.bricks[0];
+  addUpTo(window === 0 ? end : first + kAhead);
+  return {
+    first,
+    arrivals,
+    done: () => first + arrivals.length === end,
+    // After a step that ended at a time; whether a brick was reached in it.
+    look(time, rate) {
+      const before = arrivals.length;
+      while (first + arrivals.length < end) {
+        const now = tilt(world, first + arrivals.length);
+        if (now < kArrivalTilt) {
+          lastTilt = now;
+          break;
+        }
+        const share = now > lastTilt ? (now - kArrivalTilt) / (now - lastTilt) : 0;
+        arrivals.push(time - share / rate);
+        lastTilt = 0;
+        if (window === 0) continue;
+        addUpTo(first + arrivals.length + kAhead);
+        while (removed + window < first + arrivals.length) world.remove(removed++);
+      }
+      return arrivals.length > before;
+    },
+  };
+}
+
+function push(world, scene, rate, index) {
+  const { heading } = scene.bricks[index];
   const speed = kPush / (scene.timeStep * rate);
   const ahead = 0.5 * speed * scene.height;
   world.setVelocity(
-    0,
+    index,
     [ahead * Math.cos(heading), ahead * Math.sin(heading), 0.5 * speed * scene.thickness],
     [-speed * Math.sin(heading), speed * Math.cos(heading), 0],
   );
+}
+
+function follow(world, scene, rate, window, limit) {
+  const waves = scene.rows.slice(0, -1).map((first, row) => {
+    const wave = makeWave(world, first, scene.rows[row + 1], window);
+    push(world, scene, rate, first);
+    return wave;
+  });
+  let last = 0;
   const begin = cpuNow();
   for (let step = 1; ; ++step) {
     world.step();
     const time = step / rate;
-    while (arrivals.length < count) {
-      const now = tilt(world, arrivals.length);
-      if (now < kArrivalTilt) {
-        lastTilt = now;
-        break;
-      }
-      const share = now > lastTilt ? (now - kArrivalTilt) / (now - lastTilt) : 0;
-      arrivals.push(time - share / rate);
-      lastTilt = 0;
-      last = time;
-      if (window === 0) continue;
-      addUpTo(arrivals.length + kAhead);
-      while (removed + window < arrivals.length) world.remove(removed++);
-    }
+    for (const wave of waves) if (wave.look(time, rate)) last = time;
     const cut = cpuNow() - begin > limit;
-    if (cut || time > last + (arrivals.length === count ? kAfter : 2)) return { arrivals, cut };
+    if (cut || time > last + (waves.every((wave) => wave.done()) ? kAfter : 2)) return { waves, cut, drift: 0 };
   }
+}
+
+function stand(world, scene, rate, seconds, limit) {
+  const places = scene.bricks.map((_, index) => {
+    world.add(index);
+    return world.middle(index);
+  });
+  const begin = cpuNow();
+  let cut = false;
+  for (let step = 1; step <= seconds * rate && !cut; ++step) {
+    world.step();
+    cut = cpuNow() - begin > limit;
+  }
+  const ways = places.map((place, index) => Math.hypot(...world.middle(index).map((now, axis) => now - place[axis])));
+  return { waves: [], cut, drift: Math.max(...ways) / scene.thickness };
 }
 
 function pathLength({ bricks }, from, to) {
@@ -80,20 +124,41 @@ function hashOf(arrivals) {
   return hash.toString(16).padStart(16, '0');
 }
 
-/** `make(scene)` gives a world with add, remove, setVelocity, step and upright; `scale` is lengths in the engine over true lengths. */
+// Mean over the rows of the speed between 20 % and 80 % of the bricks that were reached, since a run may be cut [m/s].
+function frontSpeed(scene, waves, scale) {
+  const speeds = waves.flatMap(({ first, arrivals }) => {
+    const from = Math.floor(arrivals.length / 5);
+    const to = Math.floor((arrivals.length * 4) / 5);
+    return to > from ? [pathLength(scene, first + from, first + to) / scale / (arrivals[to] - arrivals[from])] : [];
+  });
+  return speeds.length > 0 ? speeds.reduce((sum, speed) => sum + speed, 0) / speeds.length : 0;
+}
+
+/** `make(scene)` gives a world with add, remove, setVelocity, step, middle and upright; `scale`: lengths in the engine over true lengths. */
 export function run({ name, version, scale, make }) {
-  const [path, rateWord, windowWord, limitWord] = process.argv.slice(2);
+  const [path, rateWord, windowWord, limitWord, standWord] = process.argv.slice(2);
   const rate = Number(rateWord);
   const scene = readScene(path, scale, rate);
+  scene.sleeps = standWord === undefined;
   const begin = cpuNow();
-  const { arrivals, cut } = follow(make(scene), scene, rate, Number(windowWord), Number(limitWord));
+  const world = make(scene);
+  const limit = Number(limitWord);
+  const { waves, cut, drift } = scene.sleeps
+    ? follow(world, scene, rate, Number(windowWord), limit)
+    : stand(world, scene, rate, Number(standWord), limit);
   const cpu = cpuNow() - begin;
-  const count = scene.bricks.length;
-  // Of those that were reached, since a run may be cut.
-  const from = Math.floor(arrivals.length / 5);
-  const to = Math.floor((arrivals.length * 4) / 5);
-  const speed = to > from ? pathLength(scene, from, to) / scale / (arrivals[to] - arrivals[from]) : 0;
-  const result = { engine: name, version, bricks: count, arrived: arrivals.length, cpu_s: cpu, front_speed_m_s: speed, cut, hash: hashOf(arrivals) };
+  const numbers = waves.flatMap(({ arrivals }) => arrivals).concat(scene.sleeps ? [] : [drift]);
+  const result = {
+    engine: name,
+    version,
+    bricks: scene.bricks.length,
+    arrived: waves.reduce((sum, { arrivals }) => sum + arrivals.length, 0),
+    cpu_s: cpu,
+    front_speed_m_s: frontSpeed(scene, waves, scale),
+    drift,
+    cut,
+    hash: hashOf(numbers),
+  };
   console.log(JSON.stringify(result));
   process.exit(0);
 }

@@ -18,10 +18,11 @@ function make(scene) {
   const bodies = [];
   return {
     add(index) {
-      const { x, y, heading } = scene.bricks[index];
+      const { x, y, z, heading } = scene.bricks[index];
       const half = 0.5 * heading;
       const desc = RAPIER.RigidBodyDesc.dynamic()
-        .setTranslation(x, y, 0.5 * scene.height)
+        .setTranslation(x, y, z + 0.5 * scene.height)
+        .setCanSleep(scene.sleeps)
         .setRotation({ x: 0, y: 0, z: Math.sin(half), w: Math.cos(half) });
       bodies[index] = world.createRigidBody(desc);
       const box = RAPIER.ColliderDesc.cuboid(0.5 * scene.thickness, 0.5 * scene.width, 0.5 * scene.height);
@@ -37,6 +38,10 @@ function make(scene) {
     },
     step() {
       world.step();
+    },
+    middle(index) {
+      const { x, y, z } = bodies[index].translation();
+      return [x, y, z];
     },
     upright(index) {
       const { x, y } = bodies[index].rotation();
