@@ -95,6 +95,7 @@ struct Outcome {
   std::vector<Wave> waves;
   bool cut = false;
   double drift = 0.0;
+  double stood = 0.0;  // [s]
 };
 
 Outcome follow(World& world, const Scene& scene, double rate, std::size_t window, double limit) {
@@ -129,6 +130,7 @@ Outcome stand(World& world, const Scene& scene, double rate, double seconds, dou
   const double begin = cpu_now();
   for (std::int64_t step = 1; static_cast<double>(step) <= seconds * rate && !outcome.cut; ++step) {
     world.step();
+    outcome.stood = static_cast<double>(step) / rate;
     outcome.cut = cpu_now() - begin > limit;
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -191,9 +193,9 @@ int run(int argc, char** argv, const Engine& engine) {
   if (argc == 6) add(outcome.drift);
   std::printf(
       "{\"engine\": \"%s\", \"version\": \"%s\", \"bricks\": %zu, \"arrived\": %zu, \"cpu_s\": %.6f, \"front_speed_m_s\": %.6f, "
-      "\"drift\": %.6f, \"cut\": %s, \"hash\": \"%016llx\"}\n",
+      "\"drift\": %.6f, \"stood_s\": %.6f, \"cut\": %s, \"hash\": \"%016llx\"}\n",
       engine.name.c_str(), engine.version.c_str(), scene.bricks.size(), arrived, cpu, front_speed(scene, outcome.waves, engine.scale),
-      outcome.drift, outcome.cut ? "true" : "false", static_cast<unsigned long long>(hash));
+      outcome.drift, outcome.stood, outcome.cut ? "true" : "false", static_cast<unsigned long long>(hash));
   return 0;
 }
 

@@ -140,6 +140,12 @@ bool HingedFit::fits(std::size_t count) const {
 }
 
 std::size_t HingedFit::longest(std::size_t good, std::size_t bad) const {
+  // One curve rarely goes on smoothly over a jump: up to the next is asked first.
+  if (!kinks_.empty() && kinks_.front().index + 1 > good && kinks_.front().index + 1 < bad) {
+    const std::size_t jump = kinks_.front().index + 1;
+    if (fits(jump)) return jump;
+    bad = jump;
+  }
   while (bad - good > 1 + good / 16) {
     const std::size_t middle = good + (bad - good) / 2;
     (fits(middle) ? good : bad) = middle;

@@ -88,7 +88,7 @@ function follow(world, scene, rate, window, limit) {
     const time = step / rate;
     for (const wave of waves) if (wave.look(time, rate)) last = time;
     const cut = cpuNow() - begin > limit;
-    if (cut || time > last + (waves.every((wave) => wave.done()) ? kAfter : 2)) return { waves, cut, drift: 0 };
+    if (cut || time > last + (waves.every((wave) => wave.done()) ? kAfter : 2)) return { waves, cut, stood: 0, drift: 0 };
   }
 }
 
@@ -99,12 +99,14 @@ function stand(world, scene, rate, seconds, limit) {
   });
   const begin = cpuNow();
   let cut = false;
+  let stood = 0;
   for (let step = 1; step <= seconds * rate && !cut; ++step) {
     world.step();
+    stood = step / rate;
     cut = cpuNow() - begin > limit;
   }
   const ways = places.map((place, index) => Math.hypot(...world.middle(index).map((now, axis) => now - place[axis])));
-  return { waves: [], cut, drift: Math.max(...ways) / scene.thickness };
+  return { waves: [], cut, stood, drift: Math.max(...ways) / scene.thickness };
 }
 
 function pathLength({ bricks }, from, to) {
@@ -143,7 +145,7 @@ export function run({ name, version, scale, make }) {
   const begin = cpuNow();
   const world = make(scene);
   const limit = Number(limitWord);
-  const { waves, cut, drift } = scene.sleeps
+  const { waves, cut, stood, drift } = scene.sleeps
     ? follow(world, scene, rate, Number(windowWord), limit)
     : stand(world, scene, rate, Number(standWord), limit);
   const cpu = cpuNow() - begin;
@@ -156,6 +158,7 @@ export function run({ name, version, scale, make }) {
     cpu_s: cpu,
     front_speed_m_s: frontSpeed(scene, waves, scale),
     drift,
+    stood_s: stood,
     cut,
     hash: hashOf(numbers),
   };

@@ -98,10 +98,6 @@ std::size_t Chain::index_of(BrickId id) const {
   return index;
 }
 
-HingedState Chain::state_of(const TrainBrick& brick) const {
-  return {brick.angle, brick.ratio * state_.rate, brick.ratio * state_.acceleration + brick.curvature * state_.rate * state_.rate};
-}
-
 // ---- Time ----
 
 void Chain::advance(double until, Happenings& out) {

@@ -69,7 +69,9 @@ class Chain {
 
   TrainBrick make_brick(BrickId id) const;
   std::size_t index_of(BrickId id) const;  // In the train; its size if it is not there.
-  HingedState state_of(const TrainBrick& brick) const;
+  HingedState state_of(const TrainBrick& brick) const {
+    return {brick.angle, brick.ratio * state_.rate, brick.ratio * state_.acceleration + brick.curvature * state_.rate * state_.rate};
+  }
 
   void apply(const Change& change, Happenings& out);
   void apply_force(const Push& push, double sign, Happenings& out);

@@ -65,6 +65,7 @@ void HingeModel::read(Frame& out) const {
   out.hinged.assign(moved_.begin(), moved_.end());
   out.free.clear();
   out.kinks.assign(now_.kinks.begin(), now_.kinks.end());
+  if (!out.energy_wanted) return;
   out.energy = {0.0, settled_, work_};
   for (const Chain& chain : chains_) {
     const Energy energy = chain.energy();
