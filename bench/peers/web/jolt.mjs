@@ -23,8 +23,9 @@ function makeInterface(bodies) {
   settings.mBroadPhaseLayerInterface = layers;
   settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
   settings.mMaxBodies = bodies + 16;
-  settings.mMaxBodyPairs = 8 * bodies + 1024;
-  settings.mMaxContactConstraints = 4 * bodies + 1024;
+  // Its memory for a step is of one size, so these are not more than it has room for: those of a few thousand bricks that move at once.
+  settings.mMaxBodyPairs = Math.min(8 * bodies + 1024, 16384);
+  settings.mMaxContactConstraints = Math.min(4 * bodies + 1024, 8192);
   return new Jolt.JoltInterface(settings);
 }
 
