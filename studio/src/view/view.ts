@@ -295,7 +295,7 @@ export class View {
   }
 }
 
-/** Linear light, premultiplied and bottom row first, as a picture: sRGB, top row first. */
+/** Premultiplied sRGB, bottom row first, as a picture: not premultiplied, top row first. */
 async function pngOf(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, height: number): Promise<Blob> {
   const image = new ImageData(width, height);
   for (let y = 0; y < height; y++) {
@@ -304,8 +304,7 @@ async function pngOf(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, heig
   for (let i = 0; i < image.data.length; i += 4) {
     const alpha = image.data[i + 3] / 255;
     for (let c = 0; c < 3 && alpha > 0; c++) {
-      const light = Math.min(1, image.data[i + c] / 255 / alpha);
-      image.data[i + c] = 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055);
+      image.data[i + c] = Math.min(255, image.data[i + c] / alpha);
     }
   }
   const sheet = new OffscreenCanvas(width, height);
