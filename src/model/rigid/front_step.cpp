@@ -148,6 +148,7 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
     const Touch& touch = touches_[i];
     const Body& a = bodies_[static_cast<std::size_t>(touch.a)];
     const Body* b = touch.b == kFloor ? nullptr : &bodies_[static_cast<std::size_t>(touch.b)];
+    if (a.inverse_mass == 0.0 && (b == nullptr || b->inverse_mass == 0.0)) continue;
     for (int k = 0; k < touch.now.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const PointMemory& memory = touch.memory[at];
