@@ -36,6 +36,11 @@ summary { cursor: pointer; font: 600 14px/1.6 system-ui, "Helvetica Neue", Arial
 a { color: #0a5a94; }
 code { font-size: .9em; }
 footer { margin-top: 3rem; font-size: .9rem; border-top: 1px solid var(--rule); padding-top: 1rem; }
+@media (max-width: 40rem) {
+  main { padding: 1.25rem .9rem 3rem; }
+  table { display: block; overflow-x: auto; }
+  .verdict { white-space: normal; }
+}
 @media print {
   body { font-size: 10pt; }
   main { max-width: none; padding: 0; }
