@@ -6,12 +6,6 @@ using namespace topple::test;
 
 namespace {
 
-Layout layout_of(const std::string& text) {
-  auto layout = read_layout(text, "test.toml");
-  REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
-  return *std::move(layout);
-}
-
 struct Watched {
   std::vector<double> time, x;
   FreeMotion last;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/trigonometry.h"
@@ -19,6 +21,13 @@ inline BrickKind cross_check_kind(const Surface& surface = {}) {
   kind.mass = 1040.0 * kind.height * kind.width * kind.thickness;
   kind.surface = surface;
   return kind;
+}
+
+/// What a layout file says.
+inline Layout layout_of(const std::string& text) {
+  auto layout = read_layout(text, "test.toml");
+  REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
+  return *std::move(layout);
 }
 
 inline Layout straight_row(int count, double pitch, const Surface& surface = {}) {

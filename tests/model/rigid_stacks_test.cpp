@@ -7,12 +7,6 @@ using namespace topple::test;
 
 namespace {
 
-Layout layout_of(const std::string& text) {
-  auto layout = read_layout(text, "test.toml");
-  REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
-  return *std::move(layout);
-}
-
 /// The largest way that any brick's middle has gone, as a fraction of its thickness.
 double drift_after(const Layout& layout, double time) {
   auto model = rigid::make_rigid_model(layout, {.every_brick_moves = true});

@@ -258,9 +258,10 @@ bool ChainSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, std:
   bool settled = false;
   double least = 1e300;
   const int most = kIterations + kPerBody * static_cast<int>(order_.bodies().size());
-  for (int i = 0; i < most && !settled; ++i) {
+  for (int i = 0; i < most; ++i) {
     if (!solve_system(from)) return false;
     settled = settle(rows, tolerance);
+    if (settled) break;
     double score = 0.0;
     for (const double wrong : most_wrong_) score = std::max(score, wrong);
     if (score <= least) {
@@ -271,7 +272,7 @@ bool ChainSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, std:
         best_[k] = as.wrong == 0.0 ? Impulse{as.n, as.impulse - as.n * rows[k].normal} : Impulse{rows[k].n, rows[k].friction_impulse};
       }
     }
-    if (!settled) from = change(rows);
+    from = change(rows);
   }
   if (!settled) {
     for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rigid/secant.h"
 #include "model/rigid/wavefront.h"
 
 namespace topple::rigid {
@@ -122,31 +123,15 @@ double Front::distance_at(const Touch& touch, double time, double whole) const {
   return new_distance(touch, recall_within(touch), manifold);
 }
 
-// The moment at which a point of this pair begins to touch, by the secant that keeps both signs (the Illinois rule).
+// The moment at which a point of this pair begins to touch.
 double Front::impact_of(const Touch& touch, double time) const {
   const double thin = thinner(touch), enough = world_.tolerances.located * thin;
-  double low = 0.0, high = time;
-  double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, recall_within(touch), touch.next);
+  const double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, recall_within(touch), touch.next);
   // It touched from the beginning without taking part: nothing to locate.
   if (at_low <= world_.tolerances.touching * thin || at_low > 1e200) return time;
-  double middle = time;
-  for (int i = 0, side = 0; i < 30; ++i) {
-    middle = (low * at_high - high * at_low) / (at_high - at_low);
-    const double value = distance_at(touch, middle, time);
-    if (std::abs(value) <= enough || !(value < 1e200)) break;
-    if (value > 0.0) {
-      low = middle;
-      at_low = value;
-      if (side == 1) at_high *= 0.5;
-      side = 1;
-    } else {
-      high = middle;
-      at_high = value;
-      if (side == -1) at_low *= 0.5;
-      side = -1;
-    }
-  }
-  return middle;
+  return zero_between(
+      time, at_low, at_high, 30, [&](double moment) { return distance_at(touch, moment, time); },
+      [&](double distance) { return std::abs(distance) <= enough || !(distance < 1e200); });
 }
 
 // Moves on by `cut` of a drift that was tried for `whole`; a point is the same where its feature is.
@@ -169,7 +154,6 @@ void Front::accept_drift(double begin, double cut, double whole) {
     member.middle.spin = body.angular_velocity;  // As the drift has turned it.
     body.velocity = start.velocity + (2.0 * share) * gain;
     body.angular_velocity = body.angular_velocity + share * spin_gain;
-    member.before_drift = start;
     member.gain = {(2.0 / whole) * gain, (2.0 / whole) * spin_gain};
     note_arrival(i, begin, cut, slope, cross(body.angular_velocity, body.axes * member.local_up).z);
   }

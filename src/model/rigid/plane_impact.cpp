@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/rigid/plane_front.h"
+#include "model/rigid/secant.h"
 
 namespace topple::rigid {
 
@@ -110,31 +111,15 @@ double PlaneFront::distance_at(const PlaneTouch& touch, double time, double whol
   return new_distance(touch, manifold);
 }
 
-// The moment at which a point of this pair begins to touch, by the secant that keeps both signs (the Illinois rule).
+// The moment at which a point of this pair begins to touch.
 double PlaneFront::impact_of(const PlaneTouch& touch, double time) const {
   const double enough = world_.tolerances.located * touch.thin;
-  double low = 0.0, high = time;
-  double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, touch.next);
+  const double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, touch.next);
   // It touched from the beginning without taking part: nothing to locate.
   if (at_low <= world_.tolerances.touching * touch.thin || at_low > 1e200) return time;
-  double middle = time;
-  for (int i = 0, side = 0; i < 30; ++i) {
-    middle = (low * at_high - high * at_low) / (at_high - at_low);
-    const double value = distance_at(touch, middle, time);
-    if (std::abs(value) <= enough || !(value < 1e200)) break;
-    if (value > 0.0) {
-      low = middle;
-      at_low = value;
-      if (side == 1) at_high *= 0.5;
-      side = 1;
-    } else {
-      high = middle;
-      at_high = value;
-      if (side == -1) at_low *= 0.5;
-      side = -1;
-    }
-  }
-  return middle;
+  return zero_between(
+      time, at_low, at_high, 30, [&](double moment) { return distance_at(touch, moment, time); },
+      [&](double distance) { return std::abs(distance) <= enough || !(distance < 1e200); });
 }
 
 // Moves on by `cut` of a drift that was tried for `whole`; a point is the same where its feature is.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+
 #include <cstring>
+#include "model/rigid/secant.h"
 
 namespace topple::rigid {
 
@@ -299,28 +301,11 @@ double PlaneSolver::best_share(std::span<const PlaneUnknown> bodies, std::span<c
     }
     return sum;
   };
-  // The slope never falls along the way: the secant that keeps both signs (the Illinois rule) finds where it is zero.
-  double low = 0.0, high = 1.0, at_low = slope_at(0.0), at_high = slope_at(1.0);
+  // The slope never falls along the way.
+  const double at_low = slope_at(0.0), at_high = slope_at(1.0);
   if (at_high <= 0.0 || at_low >= 0.0) return 1.0;
   const double enough = 1e-6 * std::abs(at_low);
-  double middle = 1.0;
-  for (int i = 0, side = 0; i < 40; ++i) {
-    middle = (low * at_high - high * at_low) / (at_high - at_low);
-    const double value = slope_at(middle);
-    if (std::abs(value) <= enough) break;
-    if (value < 0.0) {
-      low = middle;
-      at_low = value;
-      if (side == 1) at_high *= 0.5;
-      side = 1;
-    } else {
-      high = middle;
-      at_high = value;
-      if (side == -1) at_low *= 0.5;
-      side = -1;
-    }
-  }
-  return middle;
+  return zero_between(1.0, at_low, at_high, 40, slope_at, [enough](double found) { return std::abs(found) <= enough; });
 }
 
 // One round, from the velocities as they are.

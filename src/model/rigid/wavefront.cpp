@@ -100,7 +100,7 @@ void Front::set_moving(int place) {
   member.moving = true;
   member.quiet = 0.0;
   member.tilt_cosine = (body.axes * member.local_up).z;
-  member.middle = member.before_drift = member.gain = {};
+  member.middle = member.gain = {};
   planned_for_ = 0.0;
   if (body.round) {  // It has no tilt: nothing arrives at it, and it does not fall.
     world_.arrived[static_cast<std::size_t>(body.id)] = 1;

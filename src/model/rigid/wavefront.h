@@ -22,7 +22,6 @@ struct Member {
   double time_scale = 0.0;            ///< sqrt(longest side / gravity) [s].
   double quiet = 0.0;                 ///< How long it has hardly moved [s].
   Twist middle;                       ///< What carries it through the drift that is planned.
-  Twist before_drift;                 ///< Its velocities when the last drift began.
   Twist gain;                         ///< Their change in the last drift, per time: its acceleration before the last blow.
   double tilt_cosine = 1.0;
   bool moving = false;
