@@ -150,6 +150,12 @@ describe('at every size', () => {
         await expect.poll(() => page.evaluate(() => document.documentElement.dataset.theme)).toBe(colorScheme);
         await page.waitForTimeout(300);
         await page.screenshot({ path: `${kOut}/page-${width}-${colorScheme}.png` });
+        // The strip of time is drawn anew with the colours of the page, not with those that it had before.
+        const shade = await page.evaluate(() => {
+          const strip = document.querySelector<HTMLCanvasElement>('.strip canvas')?.getContext('2d');
+          return strip ? strip.getImageData(6, 10, 1, 1).data[0] : -1;
+        });
+        expect(shade > 128, `${width} ${colorScheme}`).toBe(colorScheme === 'light');
       }
     }
     await page.close();
