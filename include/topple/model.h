@@ -78,12 +78,13 @@ struct Event {
   Vec3 point;            ///< Where, in the world [m]; not a number where there is none.
 };
 
+/// A point where a brick that moves and another one, or the floor, press on each other at the end of the last step. What passes at once,
+/// in a blow, is an Event.
 struct Contact {
   BrickId a = kNoBrick;
   BrickId b = kNoBrick;  ///< kNoBrick: the floor.
   Vec3 point;            ///< [m]
-  Vec3 normal;           ///< From b to a.
-  double impulse = 0.0;  ///< [N s]
+  Vec3 force;            ///< On a, friction included [N].
 };
 
 enum class Progress : std::uint8_t { running, at_rest, not_finite };
@@ -100,7 +101,7 @@ class Model {
   virtual double time_step() const = 0;                   ///< [s]
   virtual void read(Frame& out) const = 0;                ///< What moved in the last step, and the energy.
   virtual std::span<const Event> events() const = 0;      ///< Of the last step, in the order of their times.
-  virtual std::span<const Contact> contacts() const = 0;  ///< Of the last step.
+  virtual std::span<const Contact> contacts() const = 0;  ///< At the end of the last step; empty where the model has no forces.
   virtual std::uint64_t hash() const = 0;                 ///< Chained over all steps: ids, poses, velocities.
 };
 

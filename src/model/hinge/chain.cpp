@@ -53,7 +53,6 @@ Event event_at(double time, EventKind kind, BrickId brick, BrickId by) {
 void Happenings::clear() {
   events.clear();
   kinks.clear();
-  contacts.clear();
   stopped.clear();
   settled = 0.0;
   work = 0.0;
@@ -335,8 +334,6 @@ void Chain::hit(Happenings& out) {
   struck.impulse = rate > 0.0 ? train_.at(0).inertia * rate / arm : kNone;
   struck.point = point_of(*scene_, id, -0.5 * scene_->kind_of(id).thickness, up);
   out.events.push_back(struck);
-  const SinCos heading = sin_cos(scene_->layout->bricks[static_cast<std::size_t>(id)].heading);
-  out.contacts.push_back({id, by, struck.point, {heading.cos, heading.sin, 0.0}, struck.impulse});
 
   // A hit that lifts it less than a resting brick may still move is the last.
   const double lift = 0.5 * view.inertia * rate * rate;

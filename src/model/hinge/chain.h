@@ -30,7 +30,6 @@ struct HingeScene {
 struct Happenings {
   std::vector<Event> events;
   std::vector<Kink> kinks;
-  std::vector<Contact> contacts;
   std::vector<HingedMotion> stopped;  ///< Bricks that came to rest.
   double settled = 0.0;               ///< Potential energy that went into bricks at rest [J].
   double work = 0.0;                  ///< Of pushes [J].
@@ -54,6 +53,8 @@ class Chain {
   /// The bricks of the moving train where advance() left them, appended.
   void read(std::vector<HingedMotion>& out) const;
   Energy energy() const;  ///< Of the moving train.
+  /// What its bricks press on each other and the floor on them, appended.
+  void read(std::vector<Contact>& out) const;
 
  private:
   struct Change {  // A push begins, or a force ends.

@@ -23,7 +23,7 @@ class HingeModel final : public Model {
   double time_step() const override { return time_step_; }
   void read(Frame& out) const override;
   std::span<const Event> events() const override { return now_.events; }
-  std::span<const Contact> contacts() const override { return now_.contacts; }
+  std::span<const Contact> contacts() const override;
   std::uint64_t hash() const override { return hash_.value(); }
 
  private:
@@ -33,6 +33,7 @@ class HingeModel final : public Model {
   std::int64_t step_count_ = 0;
   Happenings now_;
   std::vector<HingedMotion> moved_;
+  mutable std::vector<Contact> contacts_;  // Filled when somebody asks.
   double settled_ = 0.0;
   double work_ = 0.0;
   Hash hash_;
@@ -72,6 +73,12 @@ void HingeModel::read(Frame& out) const {
     out.energy.kinetic += energy.kinetic;
     out.energy.potential += energy.potential;
   }
+}
+
+std::span<const Contact> HingeModel::contacts() const {
+  contacts_.clear();
+  for (const Chain& chain : chains_) chain.read(contacts_);
+  return contacts_;
 }
 
 void add_line(std::string& lines, const std::string& line) {

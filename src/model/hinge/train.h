@@ -92,6 +92,9 @@ class Train {
   /// A brick that stands is the new front, struck by the old one. The view is that of the old front where the train was placed last.
   FrontView strike(const TrainBrick& standing, const FrontView& old);
 
+  /// Torque with which the resting bricks behind turn the last brick of the train [N m].
+  double load() const { return load_; }
+
   /// Upper bound of what the last brick can still turn while the front goes from here to the floor [rad].
   double last_travel(double front_angle) const;
 
@@ -101,7 +104,7 @@ class Train {
  private:
   std::vector<TrainBrick> bricks_;  ///< The front is the last element, so that a new front is appended.
   std::size_t first_ = 0;           ///< Index of the last brick of the train in `bricks_`.
-  double load_ = 0.0;               ///< Torque with which the resting bricks behind turn the last brick of the train [N m].
+  double load_ = 0.0;               ///< See load().
 };
 
 }  // namespace topple::hinge

@@ -216,10 +216,16 @@ void Front::read(std::span<FreeMotion> out, Energy& energy) const {
 }
 
 void Front::read(std::vector<Contact>& out) const {
-  for (const ContactRow& row : rows_) {
-    const Body& a = bodies_[static_cast<std::size_t>(row.a)];
-    const BrickId b = row.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(row.b)].id;
-    out.push_back({a.id, b, a.position + row.arm_a, row.normal, row.n});
+  for (const Touch& touch : touches_) {
+    const Body& a = bodies_[static_cast<std::size_t>(touch.a)];
+    const Body* b = touch.b == kFloor ? nullptr : &bodies_[static_cast<std::size_t>(touch.b)];
+    if (a.inverse_mass == 0.0 && (b == nullptr || b->inverse_mass == 0.0)) continue;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(touch.now.count); ++k) {
+      const PointMemory& memory = touch.memory[k];
+      if (!memory.active || memory.normal_force <= 0.0) continue;
+      out.push_back({a.id, b == nullptr ? kNoBrick : b->id, touch.now.points[k].position,
+                     memory.normal_force * touch.now.normal + memory.friction_force});
+    }
   }
 }
 

@@ -214,12 +214,20 @@ void PlaneFront::read(std::span<FreeMotion> out, Energy& energy) const {
 }
 
 void PlaneFront::read(std::vector<Contact>& out) const {
-  for (const PlaneRow& row : rows_) {
-    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
-    const PlanePoint& point = touch.now.points[static_cast<std::size_t>(row.point)];
-    const BrickId b = touch.b < 0 ? kNoBrick : bricks_[static_cast<std::size_t>(touch.b)].id;
-    out.push_back({bricks_[static_cast<std::size_t>(touch.a)].id, b, in_world(point.x, point.z),
-                   touch.now.normal_x * plane_.along + Vec3{0.0, 0.0, touch.now.normal_z}, row.normal});
+  for (const PlaneTouch& touch : touches_) {
+    const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
+    const PlaneBrick* b = touch.b < 0 ? nullptr : &bricks_[static_cast<std::size_t>(touch.b)];
+    if (!a.moving && (b == nullptr || !b->moving)) continue;
+    const Vec3 normal = touch.now.normal_x * plane_.along + Vec3{0.0, 0.0, touch.now.normal_z};
+    const Vec3 tangent = touch.now.normal_z * plane_.along + Vec3{0.0, 0.0, -touch.now.normal_x};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(touch.now.count); ++k) {
+      const PlaneMemory& memory = touch.memory[k];
+      const double pressure = memory.normal + memory.leaning;
+      if (!memory.active || pressure <= 0.0) continue;
+      const PlanePoint& point = touch.now.points[k];
+      out.push_back({a.id, b == nullptr ? kNoBrick : b->id, in_world(point.x, point.z),
+                     pressure * normal + (memory.tangent + memory.leaning_tangent) * tangent});
+    }
   }
 }
 
