@@ -33,11 +33,20 @@ struct FreeMotion {
   Vec3 velocity;          ///< Of the centre of mass [m/s].
   Vec3 angular_velocity;  ///< In world axes [rad/s].
 };
-/// A moment since a hinged brick was last in a frame at which its rate or its acceleration jumped (a hit, a landing, a push).
+/// A moment since a hinged brick was last in a frame at which its rate or its acceleration jumped (a hit, a landing, a push). In a frame
+/// that is `curved` also a moment on its way at which nothing jumped.
 struct Kink {
   BrickId brick = kNoBrick;
   double time = 0.0;  ///< [s]
   HingedState before, after;
+};
+
+/// A brick that came to rest after it moved as another one did, only at another time; none of it has been told by kinks.
+struct Echo {
+  BrickId brick = kNoBrick;
+  BrickId like = kNoBrick;
+  double start = 0.0;       ///< When it began to move [s].
+  double like_start = 0.0;  ///< When the other one did [s].
 };
 
 struct Energy {
@@ -52,9 +61,16 @@ struct Frame {
   double time = 0.0;  ///< [s]
   std::vector<HingedMotion> hinged;
   std::vector<FreeMotion> free;
-  std::vector<Kink> kinks;  ///< In the order of their times for each brick.
+  std::vector<Kink> kinks;   ///< In the order of their times for each brick.
+  std::vector<Echo> echoes;  ///< Only where the frame is curved.
   Energy energy;
-  bool energy_wanted = true;  ///< Set by the reader: where it is false a model may leave `energy` as it was.
+  /// Set by the model: the kinks tell the whole motion. From one kink of a hinged brick to its next, or to its state in `hinged`, its angle
+  /// is the quintic Hermite polynomial of both ends, within a ten-thousandth of its thickness at any corner.
+  bool curved = false;
+  // Set by the reader.
+  bool energy_wanted = true;  ///< Where it is false a model may leave `energy` as it was.
+  bool last = false;  ///< Nothing is read after this: `kinks` are those that a model has not told yet since an echo might do for them.
+  bool states_wanted = true;  ///< Where it is false and the frame is curved, `hinged` may have those alone that came to rest.
 };
 
 enum class EventKind : std::uint8_t {
@@ -136,6 +152,8 @@ struct HingeConfig {
   double time_step = 0.016;
   /// What a brick may still move when it goes to rest, and what the wave may be wrong by for it: a fraction of its thickness.
   double rest_tolerance = 0.002;
+  // affects speed only
+  bool repeats = true;  ///< In an even row, a hit that leaves everything as the last one did is not computed again, nor is what follows.
 };
 
 // ---- Level 3: bricks that move freely ----

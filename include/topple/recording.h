@@ -117,9 +117,10 @@ class Recorder {
  public:
   Recorder(Recording& recording, const RecorderConfig& config);
   ~Recorder();
-  void take(const Model& model);  ///< After every step.
-  void close_tracks();            ///< Ends every track; finish() does it too.
-  void finish(RunEnd end);        ///< Says how the run ended.
+  void take(const Model& model);       ///< After every step.
+  void take_last(const Model& model);  ///< Before finish(), where a run ends while bricks move.
+  void close_tracks();                 ///< Ends every track; finish() does it too.
+  void finish(RunEnd end);             ///< Says how the run ended.
 
  private:
   struct Open;

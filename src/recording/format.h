@@ -18,6 +18,8 @@ inline constexpr std::string_view kMagic = "TOPPLE01";
 inline constexpr std::size_t kHeader = 16;  ///< Type, check and length of a piece.
 inline constexpr std::uint32_t kNoBrickCode = 0xFFFFFFFFU;
 inline constexpr std::size_t kBricksInPiece = 65536;
+/// Instead of a number of knots: this + i says that the knots are those of track i of the same piece.
+inline constexpr std::uint32_t kKnotsOfTrack = 0x80000000U;
 
 inline constexpr std::string_view kRecipe = "RCPE", kScene = "SCEN", kShapes = "SHAP", kBricks = "BRIK", kHinged = "HING", kFree = "FREE",
                                   kEvents = "EVNT", kEnergy = "ENRG", kHashes = "HASH", kEnd = "END_";

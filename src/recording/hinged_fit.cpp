@@ -21,6 +21,8 @@ constexpr int kHolds = 16;
 // What is left of the tolerance for rounding in floats, and for a curve that is smooth where the motion has a jump, between two samples.
 constexpr double kBetweenSamples = 0.05;
 constexpr float kMargin = 0.94F;
+// Samples at the ends of a curved motion's legs, which may be far apart: none of them further than this fraction of the segment.
+constexpr float kDense = 1.0F / 6.0F;
 
 using Four = float __attribute__((vector_size(16)));
 
@@ -92,6 +94,7 @@ void HingedFit::open(BrickId brick, double time, const HingedState& state, doubl
   tolerance_ = static_cast<float>(tolerance) * kMargin;
   round_ = tolerance >= KnotSteps::kFinestTolerance;
   again_ = again;
+  followed_ = false;
   turn_angle_ = state.angle;
   paused_ = false;
   start_ = time;
@@ -136,7 +139,18 @@ bool HingedFit::fits(std::size_t count) const {
   const Quintic curve = quintic(knots_.back(), last, span);
   const bool smoothed = !kinks_.empty() && kinks_.front().index + 1 < count;
   if (smoothed && curve.most_bend() * (step_ * step_) > 8.0 * kBetweenSamples * double{tolerance_} * (span * span)) return false;
+  if (followed_ && !is_dense(count)) return false;
   return within(Curve(curve, span), times(), angles(), count, tolerance_);
+}
+
+// Whether the samples are close enough to each other to say what lies between them.
+bool HingedFit::is_dense(std::size_t count) const {
+  const float most = kDense * times()[count - 1];
+  float last = 0.0F;
+  for (std::size_t i = 0; i < count; last = times()[i++]) {
+    if (times()[i] - last > most) return false;
+  }
+  return true;
 }
 
 std::size_t HingedFit::longest(std::size_t good, std::size_t bad) const {
@@ -202,10 +216,7 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
     if (kink.index > index) break;
     ++passed;
     if (kink.index != index) continue;
-    HingedKnot after = knot(0.0, 0.0, kink.rate, kink.acceleration);
-    after.time = knots_.back().time;
-    after.angle = knots_.back().angle;
-    push_knot(after);
+    push_after({0.0, kink.rate, kink.acceleration});
     fresh_ = true;
   }
   kinks_.erase(kinks_.begin(), kinks_.begin() + static_cast<std::ptrdiff_t>(passed));
@@ -220,13 +231,24 @@ void HingedFit::cut(std::size_t count, TrackStore& out) {
   std::copy_n(accelerations() + count, count_, accelerations());
   good_ = 0;
   next_test_ = kFirstTest;
-  if (knots_.size() >= kMostKnots || base_time_ > kLongestPiece) {
-    HingedKnot last = knots_.back();
-    store(out);
-    start_ = base_clock_;
-    last.time = 0.0F;
-    push_knot(last);
-  }
+  end_long_piece(out);
+}
+
+// A knot at the time and angle of the last one: what came after a jump.
+void HingedFit::push_after(const HingedState& state) {
+  HingedKnot after = knot(0.0, 0.0, state.rate, state.acceleration);
+  after.time = knots_.back().time;
+  after.angle = knots_.back().angle;
+  push_knot(after);
+}
+
+void HingedFit::end_long_piece(TrackStore& out) {
+  if (knots_.size() < kMostKnots && base_time_ <= kLongestPiece) return;
+  HingedKnot last = knots_.back();
+  store(out);
+  start_ = base_clock_;
+  last.time = 0.0F;
+  push_knot(last);
 }
 
 void HingedFit::store(TrackStore& out) {
@@ -251,6 +273,27 @@ void HingedFit::add_kink(const Kink& kink, double step, TrackStore& out) {
   } else if (count_ >= next_test_) {
     stretch(out);
   }
+}
+
+void HingedFit::follow(const Kink& kink, TrackStore& out) {
+  followed_ = true;
+  fresh_ = false;
+  const double rate = std::abs(kink.after.rate - kink.before.rate);
+  const double bend = std::abs(kink.after.acceleration - kink.before.acceleration);
+  // A curve that ends with the rate and the acceleration from after a jump is off by at most 4/27 of the one x span and 0.0173 of the
+  // other x span^2.
+  const double span = kink.time - base_clock_;
+  const bool small = span * (0.15 * rate + 0.02 * bend * span) <= kBetweenSamples * double{tolerance_};
+  if (count_ > 0 || rate + bend == 0.0) {  // Points on the way are kept if they must be.
+    add(kink.time, small ? kink.after : kink.before, out);
+    if (small) return;
+    flush(out);
+  } else {
+    const HingedState& state = small ? kink.after : kink.before;
+    push_knot(knot(kink.time - start_, state.angle, state.rate, state.acceleration));
+  }
+  if (!small) push_after(kink.after);
+  end_long_piece(out);
 }
 
 void HingedFit::pause(double time, const HingedState& state, TrackStore& out) {

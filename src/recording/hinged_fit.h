@@ -23,7 +23,9 @@ class HingedFit {
     if (count_ >= next_test_) stretch(out);
   }
   void add_kink(const Kink& kink, double step, TrackStore& out);  ///< `step`: time between samples [s].
-  bool at(double time) const;                                     ///< Whether the last thing taken happened at this time.
+  /// A kink of a frame that is curved: the quintic from the last one to this is the motion. Nothing is fitted.
+  void follow(const Kink& kink, TrackStore& out);
+  bool at(double time) const;  ///< Whether the last thing taken happened at this time.
 
   void pause(double time, const HingedState& state, TrackStore& out);  ///< It rests from now on.
   void pause();                                                        ///< It rests since the last thing taken.
@@ -53,6 +55,7 @@ class HingedFit {
   float* accelerations() const { return samples_.get() + 3 * room_; }
   void stop();
   bool fits(std::size_t count) const;
+  bool is_dense(std::size_t count) const;
   bool never_left() const;
   void refine_start();
   HingedKnot knot(double time, double angle, double rate, double acceleration) const;
@@ -62,6 +65,8 @@ class HingedFit {
   void flush(TrackStore& out);
   void cut(std::size_t count, TrackStore& out);
   void push_knot(const HingedKnot& knot);
+  void push_after(const HingedState& state);
+  void end_long_piece(TrackStore& out);
   void store(TrackStore& out);
   bool matters(const Kink& kink);
 
@@ -76,7 +81,8 @@ class HingedFit {
   bool paused_ = false;
   bool round_ = true;  // Knots are multiples of KnotSteps.
   bool again_ = false;
-  bool fresh_ = false;  // The last knot is what came after a jump.
+  bool followed_ = false;  // It has kinks of a curved frame.
+  bool fresh_ = false;     // The last knot is what came after a jump.
   std::size_t count_ = 0;
   std::size_t room_ = 0;
   std::size_t next_test_ = 0;

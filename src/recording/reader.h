@@ -40,6 +40,8 @@ class RecordingReader {
   Done build_layout();
   Done check_bricks(const Piece& piece) const;
   Done check_start(BrickId brick, double start, double last_time, std::size_t offset);
+  template <typename Tracks>
+  Done check_head(const Tracks& tracks, std::size_t track, std::size_t offset) const;
 
   std::unexpected<Error> wrong(std::size_t offset, std::string_view what) const;
   std::unexpected<Error> misfit(const Piece& piece) const;

@@ -22,6 +22,10 @@ struct Tracks {
   Column<std::uint32_t> brick;
   Column<std::uint32_t> knots;
   std::array<Column<float>, N> numbers;
+  std::vector<std::size_t> first;  // Of the knots of each track.
+
+  bool shared(std::size_t track) const { return knots[track] >= format::kKnotsOfTrack; }
+  std::size_t owner(std::size_t track) const { return shared(track) ? knots[track] - format::kKnotsOfTrack : track; }
 };
 
 template <std::size_t N>
@@ -34,7 +38,11 @@ bool read_tracks(Source& source, Tracks<N>& tracks) {
   for (auto& column : tracks.numbers) column = source.column<float>(knots);
   if (!source.ok() || !source.at_end()) return false;
   std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < tracks.count; ++i) sum += tracks.knots[i];
+  tracks.first.reserve(tracks.count);
+  for (std::size_t i = 0; i < tracks.count; ++i) {
+    tracks.first.push_back(sum);
+    if (!tracks.shared(i)) sum += tracks.knots[i];
+  }
   return sum == knots;
 }
 
@@ -53,6 +61,21 @@ bool sound(const Tracks<N>& tracks, std::size_t first, std::size_t count) {
 }
 
 }  // namespace
+
+// Whether a track is one of a brick that is there, with knots that are a motion or with those of a track before it.
+template <typename Tracks>
+RecordingReader::Done RecordingReader::check_head(const Tracks& tracks, std::size_t track, std::size_t offset) const {
+  const std::uint32_t brick = tracks.brick[track];
+  if (brick >= brick_count_) return wrong(offset, "a track of brick " + std::to_string(brick) + ", which is none");
+  if (tracks.shared(track)) {
+    if (tracks.owner(track) < track && !tracks.shared(tracks.owner(track))) return {};
+    return wrong(offset, "a track of brick " + std::to_string(brick) + " with the knots of none before it");
+  }
+  if (tracks.knots[track] == 0) return wrong(offset, "a track without knots");
+  if (!sound(tracks, tracks.first[track], tracks.knots[track]))
+    return wrong(offset, "the knots of brick " + std::to_string(brick) + " are no motion");
+  return {};
+}
 
 // A track begins where the last one of its brick ended or later.
 RecordingReader::Done RecordingReader::check_start(BrickId brick, double start, double last_time, std::size_t offset) {
@@ -76,22 +99,24 @@ RecordingReader::Done RecordingReader::take_hinged(const Piece& piece) {
   Source source = piece.source();
   Tracks<4> tracks;
   if (!read_tracks(source, tracks)) return misfit(piece);
+  TrackStore& store = recording_->store_->tracks;
+  const auto before = static_cast<std::int32_t>(store.size());
   std::vector<HingedKnot> knots;
-  std::size_t first = 0;
   for (std::size_t t = 0; t < tracks.count; ++t) {
-    const std::size_t count = tracks.knots[t];
-    if (tracks.brick[t] >= brick_count_)
-      return wrong(piece.offset, "a track of brick " + std::to_string(tracks.brick[t]) + ", which is none");
-    if (count == 0) return wrong(piece.offset, "a track without knots");
-    if (!sound(tracks, first, count))
-      return wrong(piece.offset, "the knots of brick " + std::to_string(tracks.brick[t]) + " are no motion");
+    if (auto done = check_head(tracks, t, piece.offset); !done) return done;
     const auto brick = static_cast<BrickId>(tracks.brick[t]);
+    if (tracks.shared(t)) {
+      const std::int32_t owner = before + static_cast<std::int32_t>(tracks.owner(t));
+      if (auto done = check_start(brick, tracks.start[t], double{store.last_knot(owner)->time}, piece.offset); !done) return done;
+      store.add_same(brick, tracks.start[t], owner);
+      continue;
+    }
     knots.clear();
     const auto& [time, angle, rate, acceleration] = tracks.numbers;
-    for (std::size_t i = first; i < first + count; ++i) knots.push_back({time[i], angle[i], rate[i], acceleration[i]});
+    const std::size_t first = tracks.first[t];
+    for (std::size_t i = first; i < first + tracks.knots[t]; ++i) knots.push_back({time[i], angle[i], rate[i], acceleration[i]});
     if (auto done = check_start(brick, tracks.start[t], double{knots.back().time}, piece.offset); !done) return done;
-    recording_->store_->tracks.add(brick, tracks.start[t], knots);
-    first += count;
+    store.add(brick, tracks.start[t], knots);
   }
   return {};
 }
@@ -101,15 +126,12 @@ RecordingReader::Done RecordingReader::take_free(const Piece& piece) {
   Tracks<14> tracks;
   if (!read_tracks(source, tracks)) return misfit(piece);
   std::vector<FreeKnot> knots;
-  std::size_t first = 0;
   for (std::size_t t = 0; t < tracks.count; ++t) {
-    const std::size_t count = tracks.knots[t];
-    if (tracks.brick[t] >= brick_count_)
-      return wrong(piece.offset, "a track of brick " + std::to_string(tracks.brick[t]) + ", which is none");
-    if (count == 0) return wrong(piece.offset, "a track without knots");
-    if (!sound(tracks, first, count))
-      return wrong(piece.offset, "the knots of brick " + std::to_string(tracks.brick[t]) + " are no motion");
+    if (auto done = check_head(tracks, t, piece.offset); !done) return done;
+    if (tracks.shared(t)) return wrong(piece.offset, "a track of a free brick with the knots of another");
     const auto brick = static_cast<BrickId>(tracks.brick[t]);
+    const std::size_t first = tracks.first[t];
+    const std::size_t count = tracks.knots[t];
     knots.clear();
     const auto& n = tracks.numbers;
     for (std::size_t i = first; i < first + count; ++i) {
@@ -118,7 +140,6 @@ RecordingReader::Done RecordingReader::take_free(const Piece& piece) {
     }
     if (auto done = check_start(brick, tracks.start[t], double{knots.back().time}, piece.offset); !done) return done;
     recording_->store_->tracks.add(brick, tracks.start[t], knots);
-    first += count;
   }
   return {};
 }

@@ -35,6 +35,8 @@ struct Recorder::Open {
   void take_tracks();
   void take_kinks();
   void take_hinged();
+  void take_echoes();
+  void take_last_states(const Model& model);
   void close_long_paused();
   void close(HingedFit& fit, bool still);
   void take_energy(std::int64_t step_count);
@@ -85,6 +87,7 @@ void Recorder::Open::take_tracks() {
   const Timed timed(profile, Stage::tracks);
   take_kinks();
   take_hinged();
+  take_echoes();
   free.take(frame, time_step, store.layout, store.tolerance, store.tracks, crew);
   if (step % kStepsBetweenCloses == 0) close_long_paused();
 }
@@ -102,8 +105,12 @@ void Recorder::Open::take_kinks() {
     if (fit.paused()) {
       fit.resume(kink.time, store.tracks);
     }
-    fit.add_kink(kink, time_step, store.tracks);
-    fit.kinked = step;
+    if (frame.curved) {
+      fit.follow(kink, store.tracks);
+    } else {
+      fit.add_kink(kink, time_step, store.tracks);
+      fit.kinked = step;
+    }
   }
 }
 
@@ -135,10 +142,38 @@ void Recorder::Open::take_hinged() {
     }
     HingedFit& fit = fits[static_cast<std::size_t>(index)];
     if (motion.phase != Phase::falling) {
-      fit.pause(frame.time, motion.state, store.tracks);
+      if (frame.curved) {
+        fit.pause();
+      } else {
+        fit.pause(frame.time, motion.state, store.tracks);
+      }
     } else {
       if (fit.kinked != step || !fit.at(frame.time)) fit.add(frame.time, motion.state, store.tracks);
     }
+  }
+}
+
+// What is echoed may still be open: it rests by now, but not for long.
+void Recorder::Open::take_echoes() {
+  for (const Echo& echo : frame.echoes) {
+    const std::int32_t index = slot[static_cast<std::size_t>(echo.like)];
+    if (index != kClosed) close(fits[static_cast<std::size_t>(index)], true);
+    store.tracks.add_echo(echo.brick, echo.like, echo.start, echo.like_start);
+  }
+}
+
+// Of a curved motion the last kink is the last that is known.
+void Recorder::Open::take_last_states(const Model& model) {
+  frame.states_wanted = frame.last = true;
+  model.read(frame);
+  frame.states_wanted = frame.last = false;
+  if (!frame.curved) return;
+  take_kinks();
+  for (const HingedMotion& motion : frame.hinged) {
+    const std::int32_t index = slot[static_cast<std::size_t>(motion.brick)];
+    if (index == kClosed || motion.phase != Phase::falling || !is_finite(motion.state)) continue;
+    HingedFit& fit = fits[static_cast<std::size_t>(index)];
+    if (!fit.paused() && !fit.at(frame.time)) fit.add(frame.time, motion.state, store.tracks);
   }
 }
 
@@ -190,6 +225,7 @@ Recorder::~Recorder() = default;
 
 void Recorder::take(const Model& model) {
   Open& open = *open_;
+  open.frame.states_wanted = false;
   open.frame.energy_wanted = model.step_count() >= open.next_energy;
   {
     const Timed timed(open.profile, Stage::read);
@@ -204,6 +240,8 @@ void Recorder::take(const Model& model) {
   open.take_hash(model);
   open.store.time = open.frame.time;
 }
+
+void Recorder::take_last(const Model& model) { open_->take_last_states(model); }
 
 void Recorder::close_tracks() {
   for (HingedFit& fit : open_->fits) {

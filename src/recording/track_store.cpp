@@ -10,6 +10,18 @@ void TrackStore::add_code(BrickId brick, double start, std::span<const std::uint
   last = static_cast<std::int32_t>(pieces_.size()) - 1;
 }
 
+void TrackStore::add_echo(BrickId brick, BrickId like, double start, double like_start) {
+  echoed_.clear();
+  for (std::int32_t piece = last_of(like); piece != kNone && start_of(piece) >= like_start; piece = before(piece)) echoed_.push_back(piece);
+  for (std::size_t i = echoed_.size(); i-- > 0;) add_same(brick, start + (start_of(echoed_[i]) - like_start), echoed_[i]);
+}
+
+void TrackStore::add_same(BrickId brick, double start, std::int32_t piece) {
+  std::int32_t& last = last_[static_cast<std::size_t>(brick)];
+  pieces_.push_back({start, code_of(piece), brick, last});
+  last = static_cast<std::int32_t>(pieces_.size()) - 1;
+}
+
 void TrackStore::add(BrickId brick, double start, std::span<const HingedKnot> knots) {
   if (knots.empty()) return;
   code_.clear();

@@ -14,6 +14,9 @@ class TrackStore {
 
   void add(BrickId brick, double start, std::span<const HingedKnot> knots);
   void add(BrickId brick, double start, std::span<const FreeKnot> knots);
+  /// The brick moves as `like` did from `like_start` on, and begins at `start`: the same codes are kept for both.
+  void add_echo(BrickId brick, BrickId like, double start, double like_start);
+  void add_same(BrickId brick, double start, std::int32_t piece);                  ///< With the knots of another piece, kept once.
   void add_code(BrickId brick, double start, std::span<const std::uint8_t> code);  ///< Of encode().
 
   std::size_t size() const { return pieces_.size(); }
@@ -28,6 +31,8 @@ class TrackStore {
   std::optional<HingedKnot> last_knot(std::int32_t index) const;     ///< Of a hinged piece.
   std::optional<FreeKnot> last_free_knot(std::int32_t index) const;  ///< Of a free piece.
   BrickId brick_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].brick; }
+  /// The same for pieces that share their knots.
+  const std::uint8_t* code_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].code; }
   double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
 
   /// The last piece of a brick, and the piece of the same brick before this one; kNone if there is none.
@@ -48,7 +53,8 @@ class TrackStore {
   Blocks<Piece> pieces_;
   Runs<std::uint8_t> codes_;
   std::vector<std::int32_t> last_;
-  std::vector<std::uint8_t> code_;  // Of the piece that is being added.
+  std::vector<std::uint8_t> code_;    // Of the piece that is being added.
+  std::vector<std::int32_t> echoed_;  // Scratch.
 };
 
 /// The moment of a track's last knot [s].

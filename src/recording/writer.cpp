@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "recording/crc32.h"
 #include "recording/format.h"
@@ -142,7 +143,7 @@ struct Tracks {
   struct Head {
     double start;
     BrickId brick;
-    std::size_t knots;
+    std::uint32_t knots;  // How many, or whose.
   };
   std::vector<Head> heads;
   std::vector<Knot> knots;
@@ -155,7 +156,7 @@ void write_track_heads(Sink& sink, const Tracks<Knot>& tracks) {
   sink.put(static_cast<std::uint32_t>(tracks.knots.size()));
   column(sink, tracks.heads, [](const Head& head) { return head.start; });
   column(sink, tracks.heads, [](const Head& head) { return static_cast<std::uint32_t>(head.brick); });
-  column(sink, tracks.heads, [](const Head& head) { return static_cast<std::uint32_t>(head.knots); });
+  column(sink, tracks.heads, [](const Head& head) { return head.knots; });
 }
 
 void write_hinged(Sink& sink, const Tracks<HingedKnot>& tracks) {
@@ -224,6 +225,27 @@ void write_end(Sink& sink, const RunEnd& end) {
   sink.end();
 }
 
+/// The last few tracks of a piece that had knots of their own: bricks side by side echo a few at a time.
+class Recent {
+ public:
+  /// The track of these knots, or -1.
+  std::int64_t track_of(const std::uint8_t* code) const {
+    for (const Known& known : known_) {
+      if (known.code == code) return known.track;
+    }
+    return -1;
+  }
+  void add(const std::uint8_t* code, std::size_t track) { known_[next_++ % known_.size()] = {code, static_cast<std::int64_t>(track)}; }
+
+ private:
+  struct Known {
+    const std::uint8_t* code = nullptr;
+    std::int64_t track = -1;
+  };
+  std::array<Known, 8> known_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 RecordingWriter::RecordingWriter(const Recording& recording) : store_(recording.store_.get()) {}
@@ -249,13 +271,23 @@ std::vector<std::uint8_t> RecordingWriter::more() {
   Sink sink(bytes);
   Tracks<HingedKnot> hinged;
   Tracks<FreeKnot> free;
+  Recent recent;
   const TrackStore& store = store_->tracks;
   const auto tracks = static_cast<std::int64_t>(store.size());
   for (const std::int64_t last = std::min(tracks, tracks_ + kTracksAtOnce); tracks_ < last; ++tracks_) {
     const auto index = static_cast<std::int32_t>(tracks_);
+    const double start = store.start_of(index);
+    const BrickId brick = store.brick_of(index);
+    if (const std::int64_t same = recent.track_of(store.code_of(index)); same >= 0) {
+      hinged.heads.push_back({start, brick, format::kKnotsOfTrack + static_cast<std::uint32_t>(same)});
+      continue;
+    }
     const TrackStore::Count count = store.read(index, hinged.knots, free.knots);
-    if (count.hinged > 0) hinged.heads.push_back({store.start_of(index), store.brick_of(index), count.hinged});
-    if (count.free > 0) free.heads.push_back({store.start_of(index), store.brick_of(index), count.free});
+    if (count.hinged > 0) {
+      recent.add(store.code_of(index), hinged.heads.size());
+      hinged.heads.push_back({start, brick, static_cast<std::uint32_t>(count.hinged)});
+    }
+    if (count.free > 0) free.heads.push_back({start, brick, static_cast<std::uint32_t>(count.free)});
   }
   if (!hinged.heads.empty()) write_hinged(sink, hinged);
   if (!free.heads.empty()) write_free(sink, free);

@@ -88,6 +88,7 @@ void Simulation::State::finish() {
   end.step = progress.step;
   end.time = progress.time;
   end.hash = model->hash();
+  if (end.reason != EndReason::at_rest) recorder.take_last(*model);
   recorder.finish(end);
 }
 

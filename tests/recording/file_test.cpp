@@ -5,6 +5,7 @@
 #include <string>
 
 #include "recording/crc32.h"
+#include "recording/format.h"
 #include "recording/scripted_model.h"
 
 using namespace topple;
@@ -253,6 +254,60 @@ TEST_CASE("bricks, times and knots that cannot be are errors") {
   CHECK_FALSE(read_recording(forged(bytes, "EVNT", 8, none), "run.topple").has_value());
   CHECK_FALSE(read_recording(forged(bytes, "END_", 0, std::uint32_t{9}), "run.topple").has_value());
   CHECK_FALSE(read_recording(forged(bytes, "SCEN", 9, none), "run.topple").has_value());
+}
+
+TEST_CASE("tracks with the knots of another are read as it, kept once, and refer to one before them in their piece") {
+  auto bytes = bytes_of(three_bricks());
+  const std::vector<Piece> all = pieces_of(bytes);
+  const Piece hinged = piece(all, "HING");
+  Recording whole = *read_recording(bytes, "run.topple");
+  REQUIRE(whole.track_count() == 3);
+  // Two more tracks of bricks 0 and 1, later, with the knots of others: `first` and `second` say of which.
+  const auto with = [&](std::uint32_t first, std::uint32_t second) {
+    const auto old = std::span(bytes).subspan(hinged.at + 16, hinged.length);
+    std::vector<std::uint8_t> made;
+    format::Sink sink(made);
+    const auto copy = [&](std::size_t at, std::size_t size) {
+      sink.align();
+      std::memcpy(sink.room(size), old.data() + at, size);
+    };
+    sink.begin("HING");
+    sink.put(std::uint32_t{5});
+    sink.put(static_cast<std::uint32_t>((old.size() - 64) / 16));
+    copy(8, 24);
+    sink.put(50.0);
+    sink.put(60.0);
+    copy(32, 12);
+    sink.put(std::uint32_t{0});
+    sink.put(std::uint32_t{1});
+    copy(48, 12);
+    sink.put(first);
+    sink.put(second);
+    copy(64, old.size() - 64);
+    sink.end();
+    auto file = bytes;
+    const auto at = file.begin() + static_cast<std::ptrdiff_t>(hinged.at);
+    file.erase(at, at + static_cast<std::ptrdiff_t>(16 + format::round_up(hinged.length)));
+    file.insert(file.begin() + static_cast<std::ptrdiff_t>(hinged.at), made.begin(), made.end());
+    return file;
+  };
+  constexpr std::uint32_t kSame = 0x80000000;
+  const auto read = read_recording(with(kSame + 1, kSame), "run.topple");
+  REQUIRE_MESSAGE(read.has_value(), (read ? std::string() : read.error().message));
+  REQUIRE(read->track_count() == 5);
+  for (const auto& [echo, owner] : {std::pair{3, 1}, std::pair{4, 0}}) {
+    const Track one = read->track(echo);
+    const Track other = whole.track(owner);
+    CHECK(one.start == (echo == 3 ? 50.0 : 60.0));
+    CHECK(one.brick == echo - 3);
+    REQUIRE(one.hinged.size() == other.hinged.size());
+    for (std::size_t k = 0; k < one.hinged.size(); ++k) CHECK(one.hinged[k].angle == other.hinged[k].angle);
+  }
+  CHECK(read->memory() == whole.memory());
+  CHECK(bytes_of(*read) == with(kSame + 1, kSame));  // Written again as it was.
+  CHECK(error_of(with(kSame + 4, kSame)).find("knots of none before it") != std::string::npos);
+  CHECK(error_of(with(kSame + 1, kSame + 3)).find("knots of none before it") != std::string::npos);
+  CHECK(error_of(with(kSame + 1, 0xFFFFFFFF)).find("knots of none before it") != std::string::npos);
 }
 
 TEST_CASE("tracks of a brick that are not in the order of time are an error, however short") {

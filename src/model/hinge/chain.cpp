@@ -37,11 +37,10 @@ double root(double low, double high, double at_low, double at_high, Function f) 
   return x;
 }
 
-// A point of the upright brick, `ahead` of its foot along its heading and `up` [m].
-Vec3 point_of(const HingeScene& scene, BrickId id, double ahead, double up) {
-  const Brick& brick = scene.layout->bricks[static_cast<std::size_t>(id)];
-  const SinCos heading = sin_cos(brick.heading);
-  return brick.foot + Vec3{ahead * heading.cos, ahead * heading.sin, up};
+// How high the top front edge of a brick is when it strikes the next [m].
+double hit_height(const TrainBrick& brick) {
+  const double sine = brick.pitch - brick.thickness_ahead;
+  return std::sqrt(1.0 - sine * sine) * brick.height;
 }
 
 Event event_at(double time, EventKind kind, BrickId brick, BrickId by) {
@@ -53,6 +52,7 @@ Event event_at(double time, EventKind kind, BrickId brick, BrickId by) {
 void Happenings::clear() {
   events.clear();
   kinks.clear();
+  echoes.clear();
   stopped.clear();
   settled = 0.0;
   work = 0.0;
@@ -109,18 +109,21 @@ void Chain::advance(double until, Happenings& out) {
       if (change > until) return;
       continue;
     }
-    if (leg_.count == 0) start_leg();
-    if (!finite() || !std::isfinite(leg_.end().time)) {
+    if (leg_.count == 0) start_leg(out);
+    const double end = leg_start_ + leg_.end().time;
+    if (!finite() || !std::isfinite(end)) {
       state_.angle = kNone;
       return;
     }
-    if (leg_.end().time <= horizon) {
-      emit_arrivals(leg_.end().time, out);
+    if (end <= horizon) {
+      emit_arrivals(end, out);
       finish_leg(out);
       continue;
     }
     emit_arrivals(horizon, out);
-    state_ = leg_.at_time(horizon);
+    now_ = horizon;
+    if (change > until && acting_ == 0) return;
+    state_ = now();
     view_ = train_.place(state_.angle, direction_);
     state_.acceleration = view_.acceleration(state_.rate);
     add_work(out);
@@ -129,16 +132,34 @@ void Chain::advance(double until, Happenings& out) {
   }
 }
 
+FrontState Chain::now() const {
+  if (leg_.count == 0) return state_;
+  FrontState state = leg_.at_time(now_ - leg_start_);
+  state.time = now_;
+  return state;
+}
+
 LegGoal Chain::leg_goal() const { return {goal_angle_, direction_, scene_->slow_step, 0.1 * scene_->rest_tolerance, view_}; }
 
-void Chain::start_leg() {
+void Chain::start_leg(Happenings& out) {
+  leg_start_ = now_ = state_.time;
+  if (repeat_.on && next_is_alike()) {
+    leg_.count = Leg::kMostNodes;
+    next_arrival_ = 0;
+    return;
+  }
+  end_repeat(out);
+  ++repeat_.legs;
   choose_goal();
-  leg_ = make_leg(train_, state_, leg_goal());
+  FrontState start = state_;
+  start.time = 0.0;
+  leg_ = make_leg(train_, start, leg_goal());
   if (leg_.turns_over) {
     find_turn_over(state_.angle);
-    if (goal_ == Goal::turn_over) leg_ = make_leg(train_, state_, leg_goal());
+    if (goal_ == Goal::turn_over) leg_ = make_leg(train_, start, leg_goal());
   }
   find_arrivals();
+  states(began_);
 }
 
 double Chain::lean_angle(BrickId id, BrickId next) const {
@@ -212,27 +233,29 @@ void Chain::find_arrivals() {
     } else if (at_start < 0.0) {
       angle = root(start, end, at_start, at_end, [&](double x) { return train_.angle_of(k, x) - kArrivalTilt; });
     }
-    arrivals_.push_back({leg_.time_of(std::clamp(angle, start, end)), train_.at(k).id});
+    arrivals_.push_back({leg_.time_of(std::clamp(angle, start, end)), k});
   }
   std::reverse(arrivals_.begin(), arrivals_.end());  // Those further back tilt more, so they come first.
 }
 
 void Chain::emit_arrivals(double until, Happenings& out) {
-  for (; next_arrival_ < arrivals_.size() && arrivals_[next_arrival_].time <= until; ++next_arrival_) {
+  for (; next_arrival_ < arrivals_.size() && leg_start_ + arrivals_[next_arrival_].time <= until; ++next_arrival_) {
     const Arrival& arrival = arrivals_[next_arrival_];
-    out.events.push_back(event_at(arrival.time, EventKind::arrived, arrival.brick, kNoBrick));
-    train_.at(index_of(arrival.brick)).arrived = true;
+    out.events.push_back(event_at(leg_start_ + arrival.time, EventKind::arrived, train_.at(arrival.place).id, kNoBrick));
+    train_.at(arrival.place).arrived = true;
   }
 }
 
 // ---- Events ----
 
 void Chain::finish_leg(Happenings& out) {
+  if (repeat_.on) return repeat_hit(out);
+  repeat_.kinks = out.kinks.size();
   const bool reached = leg_.reached;
   const bool touches = leg_.touches || !leg_.swept || direction_ < 0.0 || goal_ == Goal::turn_over;
-  const bool stuck = leg_.end().time <= leg_.nodes[0].time;  // Friction jams it: it would not move whichever way it went.
+  const bool stuck = leg_.end().time <= 0.0;  // Friction jams it: it would not move whichever way it went.
   state_ = leg_.end();
-  leg_.count = 0;
+  state_.time += leg_start_;
   if (leg_.swept) {
     train_.place_at_goal(state_.angle);
     view_ = leg_.goal_view;
@@ -240,12 +263,15 @@ void Chain::finish_leg(Happenings& out) {
     view_ = train_.place(state_.angle, direction_);
   }
   add_work(out);
+  end_curves(out);
+  leg_.count = 0;
   if (!reached) {
-    if (direction_ * state_.rate > 0.0) return;
+    if (direction_ * state_.rate > 0.0) return add_points(out);
     state_.rate = 0.0;
     begin_motion();
-    if (!moving_ || stuck) return rest_all(false, kNoBrick, out);
-    return restart(0.0);
+    if (!moving_ || stuck) return rest_from_before(false, kNoBrick, out);
+    restart(0.0);
+    return add_kinks(out);
   }
   if (touches) turn_over(out);
   if (!moving_) return;
@@ -253,19 +279,14 @@ void Chain::finish_leg(Happenings& out) {
     case Goal::hit:
       return hit(out);
     case Goal::lean:
-      return rest_all(true, scene_->link_of(front()).next, out);
+      return rest_from_before(true, scene_->link_of(front()).next, out);
     case Goal::floor:
-      return rest_all(true, kNoBrick, out);
+      return rest_from_before(true, kNoBrick, out);
     case Goal::upright:
       return stand_up(out);
     case Goal::turn_over:
       return;
   }
-}
-
-void Chain::remember_states() {
-  before_.clear();
-  for (std::size_t k = train_.size(); k-- > 0;) before_.push_back(state_of(train_.at(k)));
 }
 
 // The front goes on from where it is, at another rate.
@@ -275,20 +296,6 @@ void Chain::restart(double rate) {
   state_.acceleration = view_.acceleration(rate);
 }
 
-// A jump that is not told makes the motion between two steps, as the Hermite polynomial sees it, wrong by at most about a tenth of
-// jump x step. So those are told that would make it a tenth of what a resting brick may still move, or more.
-void Chain::add_kinks(Happenings& out) {
-  const double step = scene_->time_step;
-  for (std::size_t i = 0; i < train_.size(); ++i) {
-    const TrainBrick& brick = train_.at(train_.size() - 1 - i);
-    const HingedState before = i < before_.size() ? before_[i] : HingedState{};
-    const HingedState after = state_of(brick);
-    const double jump =
-        std::fabs(after.rate - before.rate) * step + 0.5 * std::fabs(after.acceleration - before.acceleration) * step * step;
-    if (jump * brick.height > scene_->rest_tolerance * brick.thickness) out.kinks.push_back({brick.id, state_.time, before, after});
-  }
-}
-
 // The front faces of bricks that come to lie flush with the rear faces ahead stop at their heels: an inelastic hit.
 void Chain::turn_over(Happenings& out) {
   rates_.resize(train_.size());
@@ -296,7 +303,6 @@ void Chain::turn_over(Happenings& out) {
   bool any = false;
   for (std::size_t k = 1; k < train_.size(); ++k) {
     if (train_.at(k).on_heel == (direction_ > 0.0) || direction_ * rates_[k] > kTurnOver) continue;
-    if (!any) remember_states();
     any = true;
     train_.at(k).on_heel = direction_ > 0.0;
   }
@@ -309,16 +315,18 @@ void Chain::turn_over(Happenings& out) {
   if (state_.rate == 0.0) {
     begin_motion();
     if (!moving_) return rest_all(false, kNoBrick, out);
+    remember_states();
     restart(0.0);
+    add_kinks(out);
   }
-  if (direction_ > 0.0) retire(out);
+  remember_states();
+  if (direction_ > 0.0 && retire(out) > 0) remember_states();
 }
 
 // The whole train strikes the next brick, which stands: simultaneous, perfectly inelastic [vanLeeuwen2010] eq. 30.
 void Chain::hit(Happenings& out) {
   const BrickId by = front();
   const BrickId id = scene_->link_of(by).next;
-  remember_states();
   train_.at(0).on_heel = false;
   const FrontView view = train_.strike(make_brick(id), view_);
   // What the train had about the struck brick stays: the gain of the new lean x what it had about the one that strikes.
@@ -327,13 +335,9 @@ void Chain::hit(Happenings& out) {
   state_.angle = 0.0;
 
   const TrainBrick& behind = train_.at(1);
-  const double sine = behind.pitch - behind.thickness_ahead;
-  const double up = std::sqrt(1.0 - sine * sine) * behind.height;
-  const double arm = up - behind.friction * behind.thickness_ahead * behind.height;
-  Event struck = event_at(state_.time, EventKind::struck, id, by);
-  struck.impulse = rate > 0.0 ? train_.at(0).inertia * rate / arm : kNone;
-  struck.point = point_of(*scene_, id, -0.5 * scene_->kind_of(id).thickness, up);
-  out.events.push_back(struck);
+  const double arm = hit_height(behind) - behind.friction * behind.thickness_ahead * behind.height;
+  repeat_.impulse = rate > 0.0 ? train_.at(0).inertia * rate / arm : kNone;
+  add_strike(id, by, repeat_.impulse, out);
 
   // A hit that lifts it less than a resting brick may still move is the last.
   const double lift = 0.5 * view.inertia * rate * rate;
@@ -343,32 +347,46 @@ void Chain::hit(Happenings& out) {
     state_.angle = train_.at(0).angle;
     state_.rate = 0.0;
     view_ = train_.place(state_.angle, 1.0);
-    return rest_all(true, id, out);
+    return rest_from_before(true, id, out);
   }
   scene_->angle_of(id) = HingeScene::kInTrain;
   state_.rate = rate;
   state_.acceleration = view.acceleration(rate);
   view_ = view;
-  add_kinks(out);
-  retire(out);
+  add_kinks(out, retire(out));
+  look_for_repeat(out);
 }
 
-// Bricks at the back go to rest once what they can still turn is within the tolerance.
-void Chain::retire(Happenings& out) {
+void Chain::add_strike(BrickId id, BrickId by, double impulse, Happenings& out) const {
+  const TrainBrick& behind = train_.at(1);
+  const Brick& brick = scene_->layout->bricks[static_cast<std::size_t>(id)];
+  const SinCos heading = sin_cos(brick.heading);
+  const double back = 0.5 * scene_->kind_of(id).thickness;
+  Event struck = event_at(state_.time, EventKind::struck, id, by);
+  struck.impulse = impulse;
+  struck.point = brick.foot + Vec3{-back * heading.cos, -back * heading.sin, hit_height(behind)};
+  out.events.push_back(struck);
+}
+
+// Bricks at the back go to rest once what they can still turn is within the tolerance. Says how many.
+std::size_t Chain::retire(Happenings& out) {
+  std::size_t count = 0;
   while (train_.size() > 2) {
     const TrainBrick& last = train_.at(train_.size() - 1);
-    if (train_.last_travel(state_.angle) * last.height > scene_->rest_tolerance * last.thickness) return;
+    if (train_.last_travel(state_.angle) * last.height > scene_->rest_tolerance * last.thickness) break;
     const BrickId ahead = train_.at(train_.size() - 2).id;
-    settle(train_.drop_last(1.0), ahead, true, out);
+    out.tell({last.id, state_.time, before_[count++], {last.angle, 0.0, 0.0}});
+    repeat_.rested = train_.drop_last(1.0);
+    settle(repeat_.rested, ahead, true, out);
   }
+  return count;
 }
 
 // The front has returned and stands; the bricks behind it go on without it.
 void Chain::stand_up(Happenings& out) {
-  remember_states();
   TrainBrick front = train_.at(0);
   front.angle = 0.0;
-  out.kinks.push_back({front.id, state_.time, before_.back(), {}});
+  out.tell({front.id, state_.time, before_.back(), {}});
   settle(front, kNoBrick, false, out);
   const double rate = train_.size() > 1 ? train_.at(1).ratio * state_.rate : 0.0;
   train_.drop_front();
@@ -396,6 +414,11 @@ void Chain::settle(const TrainBrick& brick, BrickId by, bool landed, Happenings&
 
 void Chain::rest_all(bool front_landed, BrickId by, Happenings& out) {
   remember_states();
+  rest_from_before(front_landed, by, out);
+}
+
+// Where before_ says how all moved until now.
+void Chain::rest_from_before(bool front_landed, BrickId by, Happenings& out) {
   state_.rate = 0.0;
   state_.acceleration = 0.0;
   moving_ = false;
@@ -419,7 +442,15 @@ bool Chain::missed_next(BrickId id) const {
 
 void Chain::read(std::vector<HingedMotion>& out) const {
   if (!moving_) return;
-  for (std::size_t k = train_.size(); k-- > 0;) out.push_back({train_.at(k).id, Phase::falling, state_of(train_.at(k))});
+  const FrontState front = now();
+  std::vector<TrainView> bricks;
+  const double acceleration = train_.look(front.angle, direction_, bricks).acceleration(front.rate);
+  for (std::size_t k = bricks.size(); k-- > 0;) {
+    const TrainView& brick = bricks[k];
+    out.push_back({brick.id,
+                   Phase::falling,
+                   {brick.angle, brick.ratio * front.rate, brick.ratio * acceleration + brick.curvature * front.rate * front.rate}});
+  }
 }
 
 double Chain::potential(const TrainBrick& brick, double s, double c) const {
@@ -439,11 +470,14 @@ double Chain::kinetic() const {
 Energy Chain::energy() const {
   Energy energy;
   if (!moving_) return energy;
+  const FrontState front = now();
+  std::vector<TrainView> bricks;
+  train_.look(front.angle, direction_, bricks);
   for (std::size_t k = 0; k < train_.size(); ++k) {
-    const TrainBrick& brick = train_.at(k);
-    energy.potential += potential(brick, brick.sine, brick.cosine);
+    const double rate = bricks[k].ratio * front.rate;
+    energy.potential += potential(train_.at(k), bricks[k].sine, bricks[k].cosine);
+    energy.kinetic += 0.5 * train_.at(k).inertia * rate * rate;
   }
-  energy.kinetic = kinetic();
   return energy;
 }
 

@@ -54,11 +54,14 @@ InPlane pressed_in_all(const BrickKind& kind, const HingedState& state, double g
 // at the front.
 void Chain::read(std::vector<Contact>& out) const {
   if (!moving_) return;
+  std::vector<HingedMotion> bricks;  // From the back.
+  read(bricks);
+  const auto state_of = [&bricks](std::size_t k) { return bricks[bricks.size() - 1 - k].state; };
   const Layout& layout = *scene_->layout;
   Passed got{.torque = train_.load(), .force = {}, .point = {}};
   for (std::size_t k = train_.size(); k-- > 0;) {
     const TrainBrick& brick = train_.at(k);
-    const HingedState state = state_of(brick);
+    const HingedState state = state_of(k);
     const SinCos turned = sin_cos(state.angle);
     const Brick& placed = layout.bricks[static_cast<std::size_t>(brick.id)];
     const SinCos heading = sin_cos(placed.heading);
@@ -71,7 +74,7 @@ void Chain::read(std::vector<Contact>& out) const {
     if (acting_ > 0 && forced_ == brick.id) floor.along -= force_;
     // Which force the bricks at rest put on the last one of the train is not known, only how it turns it.
     const bool floor_is_known = k + 1 < train_.size() || train_.load() == 0.0;
-    got = k > 0 ? hand_on(brick, sin_cos(train_.at(k - 1).angle), left, direction_) : Passed{};
+    got = k > 0 ? hand_on(brick, sin_cos(state_of(k - 1).angle), left, direction_) : Passed{};
     floor = floor + got.force;
     if (floor_is_known) out.push_back({brick.id, kNoBrick, toe, in_world(floor)});
   }

@@ -13,6 +13,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 void Chain::apply(const Change& change, Happenings& out) {
+  end_repeat(out);
   const Push& push = pushes_[change.push];
   if (!change.ends) {
     Event pushed{state_.time, EventKind::pushed, push.brick, kNoBrick, kNone, kNone, {kNone, kNone, kNone}};

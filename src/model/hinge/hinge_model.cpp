@@ -5,7 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "base/hash.h"
 #include "model/hinge/chain.h"
 
 namespace topple::hinge {
@@ -24,7 +23,7 @@ class HingeModel final : public Model {
   void read(Frame& out) const override;
   std::span<const Event> events() const override { return now_.events; }
   std::span<const Contact> contacts() const override;
-  std::uint64_t hash() const override { return hash_.value(); }
+  std::uint64_t hash() const override { return now_.hash.value(); }
 
  private:
   HingeScene scene_;
@@ -32,11 +31,9 @@ class HingeModel final : public Model {
   std::vector<Chain> chains_;
   std::int64_t step_count_ = 0;
   Happenings now_;
-  std::vector<HingedMotion> moved_;
   mutable std::vector<Contact> contacts_;  // Filled when somebody asks.
   double settled_ = 0.0;
   double work_ = 0.0;
-  Hash hash_;
 };
 
 Status HingeModel::step() {
@@ -54,18 +51,25 @@ Status HingeModel::step() {
   if (!std::is_sorted(now_.events.begin(), now_.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; })) {
     std::stable_sort(now_.events.begin(), now_.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
   }
-  moved_.assign(now_.stopped.begin(), now_.stopped.end());
-  for (const Chain& chain : chains_) chain.read(moved_);
-  for (const HingedMotion& motion : moved_)
-    hash_.add(mixed(static_cast<std::uint64_t>(motion.brick), motion.state.angle, motion.state.rate));
   return {running ? Progress::running : Progress::at_rest, kNoBrick};
 }
 
 void HingeModel::read(Frame& out) const {
   out.time = static_cast<double>(step_count_) * time_step_;
-  out.hinged.assign(moved_.begin(), moved_.end());
+  out.hinged.assign(now_.stopped.begin(), now_.stopped.end());
+  if (out.states_wanted) {
+    for (const Chain& chain : chains_) chain.read(out.hinged);
+  }
+  out.curved = true;
   out.free.clear();
-  out.kinks.assign(now_.kinks.begin(), now_.kinks.end());
+  out.kinks.clear();
+  out.echoes.clear();
+  if (out.last) {
+    for (const Chain& chain : chains_) chain.tell_silent(out.kinks);
+  } else {
+    out.kinks.assign(now_.kinks.begin(), now_.kinks.end());
+    out.echoes.assign(now_.echoes.begin(), now_.echoes.end());
+  }
   if (!out.energy_wanted) return;
   out.energy = {0.0, settled_, work_};
   for (const Chain& chain : chains_) {
@@ -113,6 +117,21 @@ constexpr double kSlowStep = 0.02;
 // good as at 4 ms, within 0.05 % of the thickness at a corner.
 constexpr double kReadStep = 0.016;
 
+// Two pitches that differ by less are one: far from the origin a place is no better known.
+constexpr double kSamePitch = 1e-9;
+
+// Along each row, pitches that differ by rounding only become the same number.
+void even_out(std::vector<Link>& links, const std::vector<BrickId>& pushed) {
+  for (const BrickId start : pushed) {
+    const Link* last = &links[static_cast<std::size_t>(start)];
+    for (std::size_t n = 0; n < links.size() && last->next != kNoBrick; ++n) {
+      Link& link = links[static_cast<std::size_t>(last->next)];
+      if (std::fabs(link.pitch - last->pitch) <= kSamePitch * last->pitch) link.pitch = last->pitch;
+      last = &link;
+    }
+  }
+}
+
 // Two pushed bricks in one row would make two waves that meet.
 void check_rows(const std::vector<Link>& links, const std::vector<BrickId>& pushed, std::string& problems) {
   std::vector<BrickId> wave_of(links.size(), kNoBrick);
@@ -158,8 +177,9 @@ Result<std::unique_ptr<Model>> make_hinge_model(const Layout& layout, const Hing
   check_rows(scene.links, pushed, problems);
   if (!problems.empty()) return failure(problems);
 
+  even_out(scene.links, pushed);
   scene.rest_tolerance = config.rest_tolerance;
-  scene.time_step = config.time_step;
+  scene.repeats = config.repeats;
   scene.slow_step = kSlowStep * least_growth_time(layout);
   scene.angles.resize(layout.bricks.size(), 0.0F);
   auto model = std::make_unique<HingeModel>(std::move(scene), config.time_step);

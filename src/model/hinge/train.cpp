@@ -79,6 +79,18 @@ void Train::clear() {
   load_ = 0.0;
 }
 
+bool Train::moves_as(const Train& other) const {
+  if (size() != other.size() || load_ != other.load_) return false;
+  const auto same = [](const TrainBrick& a, const TrainBrick& b) {
+    return a.angle == b.angle && a.ratio == b.ratio && a.curvature == b.curvature && a.bound == b.bound && a.on_heel == b.on_heel &&
+           a.arrived == b.arrived && a.inertia == b.inertia && a.torque_sin == b.torque_sin && a.torque_cos == b.torque_cos &&
+           a.height == b.height && a.thickness == b.thickness && a.pitch == b.pitch && a.thickness_ahead == b.thickness_ahead &&
+           a.friction == b.friction && a.hit_angle == b.hit_angle;
+  };
+  return std::equal(bricks_.begin() + static_cast<std::ptrdiff_t>(first_), bricks_.end(),
+                    other.bricks_.begin() + static_cast<std::ptrdiff_t>(other.first_), same);
+}
+
 FrontView Train::view(double front_angle, double direction) const {
   return walk(size(), &bricks_.back(), front_angle, direction, load_, kNothing);
 }
@@ -107,6 +119,15 @@ FrontView Train::place(double front_angle, double direction) {
                 placed.curvature = curvature;
                 sin_ahead = s;
                 cos_ahead = c;
+              });
+}
+
+FrontView Train::look(double front_angle, double direction, std::vector<TrainView>& out) const {
+  out.clear();
+  return walk(size(), &bricks_.back(), front_angle, direction, load_,
+              [&](const TrainBrick& brick, double s, double c, double ratio, double curvature, double) {
+                const double angle = out.empty() ? front_angle : out.back().angle + lean_angle(s * out.back().cosine - c * out.back().sine);
+                out.push_back({brick.id, angle, s, c, ratio, curvature});
               });
 }
 
@@ -164,6 +185,7 @@ Sweep Train::sweep(const std::array<double, 4>& front_angles, double direction, 
     torque[i] = front->torque_sin * s[i] + front->torque_cos * c[i];
   }
   Sweep out;
+  bricks_.back().way_ratio = {1.0, 1.0};
   double bound = 1.0;
   for (std::size_t k = 1; k < size(); ++k) {
     TrainBrick& brick = bricks_[bricks_.size() - 1 - k];
@@ -188,6 +210,7 @@ Sweep Train::sweep(const std::array<double, 4>& front_angles, double direction, 
     brick.goal_ratio = ratio[1][1];
     brick.goal_curvature = curvature[1][1];
     brick.goal_bound = bound;
+    brick.way_ratio = {ratio[0][0], ratio[1][0]};
   }
   for (std::size_t j = 0; j < 4; ++j) {
     const std::size_t i = j / 2;

@@ -37,6 +37,17 @@ struct TrainBrick {
   double goal_ratio = 1.0;
   double goal_curvature = 0.0;
   double goal_bound = 1.0;
+  std::array<double, 2> way_ratio{};  ///< At the first and third of the sweep's four angles.
+};
+
+/// A brick of the train at an angle of the front.
+struct TrainView {
+  BrickId id = kNoBrick;
+  double angle = 0.0;  ///< [rad]
+  double sine = 0.0;
+  double cosine = 1.0;
+  double ratio = 1.0;      ///< d angle / d front angle.
+  double curvature = 0.0;  ///< d ratio / d front angle [1/rad].
 };
 
 /// What the whole train is to its front brick: inertia x acceleration = torque - coupling x rate^2.
@@ -64,6 +75,8 @@ class Train {
   const TrainBrick& at(std::size_t index) const { return bricks_[bricks_.size() - 1 - index]; }
 
   void clear();
+  /// Whether its motion from here on is that of the other, to the last bit. What neither keeps to the next event does not count.
+  bool moves_as(const Train& other) const;
   void add_front(const TrainBrick& brick) { bricks_.push_back(brick); }
   void drop_front() { bricks_.pop_back(); }
 
@@ -72,6 +85,9 @@ class Train {
 
   /// The same, and writes angle, ratio and curvature of every brick.
   FrontView place(double front_angle, double direction);
+
+  /// The same, and says of every brick, from the front to the back, where it is there; the train stays placed where it was.
+  FrontView look(double front_angle, double direction, std::vector<TrainView>& out) const;
 
   /// At four angles at once, at little more than the cost of one. What the last of them is for each brick is kept.
   Sweep sweep(const std::array<double, 4>& front_angles, double direction, double slack);

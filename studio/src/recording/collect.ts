@@ -68,12 +68,19 @@ export class BrickCollector {
   }
 }
 
-/** Start, brick and number of knots of the tracks in one piece. */
+/** Where a number of knots is this or more, what is above it is the track of the same piece whose knots these are. */
+const kKnotsOfTrack = 0x80000000;
+
+/** Start, brick and knots of the tracks in one piece. */
 interface TrackHeads {
   free: boolean;
   start: Float64Array;
   brick: Uint32Array;
+  /** The first knot of each, in this piece, and how many; several tracks may share them. */
+  first: Uint32Array;
   count: Uint32Array;
+  /** Of all of them together. */
+  knots: number;
   /** Time of the last knot of each [s]. */
   end: Float64Array;
 }
@@ -90,7 +97,7 @@ export class TrackCollector {
   bricksSeen = 0;
 
   takeHinged(piece: Payload, bricks: number): void {
-    const { tracks, knots, heads } = this.readHeads(piece, bricks, false, 16);
+    const { tracks, knots, shared, heads } = this.readHeads(piece, bricks, false, 16);
     const time = piece.f32s(knots, 'times of knots');
     const angle = piece.f32s(knots, 'angles');
     const rate = piece.f32s(knots, 'rates');
@@ -98,7 +105,7 @@ export class TrackCollector {
     for (let k = 0; k < knots; k++) {
       if (!Number.isFinite(angle[k] + rate[k] + acceleration[k])) piece.fail(`knot ${k} is not finite`);
     }
-    this.finishHeads(piece, heads, tracks, time);
+    this.finishHeads(piece, heads, tracks, shared, time);
     this.times.push(time);
     this.angles.push(angle);
     this.rates.push(rate);
@@ -106,7 +113,7 @@ export class TrackCollector {
   }
 
   takeFree(piece: Payload, bricks: number): void {
-    const { tracks, knots, heads } = this.readHeads(piece, bricks, true, 56);
+    const { tracks, knots, shared, heads } = this.readHeads(piece, bricks, true, 56);
     const time = piece.f32s(knots, 'times of knots');
     const state = new Float32Array(knots * kFreeStride);
     for (let column = 0; column < kFreeStride; column++) {
@@ -116,7 +123,7 @@ export class TrackCollector {
         state[k * kFreeStride + column] = values[k];
       }
     }
-    this.finishHeads(piece, heads, tracks, time);
+    this.finishHeads(piece, heads, tracks, shared, time);
     this.freeTimes.push(time);
     this.freeStates.push(state);
   }
@@ -127,26 +134,37 @@ export class TrackCollector {
     if (tracks * 16 + knots * knotBytes > piece.left) piece.fail(`${tracks} tracks with ${knots} knots do not fit into ${piece.left} bytes`);
     const start = piece.f64s(tracks, 'starts');
     const brick = piece.u32s(tracks, 'bricks');
-    const count = piece.u32s(tracks, 'numbers of knots');
+    const count = piece.u32s(tracks, 'numbers of knots').slice(); // the file's own bytes stay as they are
+    const first = new Uint32Array(tracks);
     let told = 0;
     for (let i = 0; i < tracks; i++) {
       if (brick[i] >= bricks) piece.fail(`a track of brick ${brick[i]}, but there are ${bricks} bricks`);
       if (!Number.isFinite(start[i])) piece.fail(`the track of brick ${brick[i]} starts at no finite time`);
       if (count[i] === 0) piece.fail(`the track of brick ${brick[i]} has no knots`);
-      told += count[i];
+      first[i] = told;
+      if (count[i] < kKnotsOfTrack) told += count[i];
     }
     if (told !== knots) piece.fail(`its tracks have ${told} knots, the piece says ${knots}`);
-    return { tracks, knots, heads: { free, start, brick, count, end: new Float64Array(tracks) } };
+    const shared = count.map((n) => (n < kKnotsOfTrack ? 0 : 1));
+    for (let i = 0; i < tracks; i++) {
+      if (!shared[i]) continue;
+      const owner = count[i] - kKnotsOfTrack;
+      if (owner >= i || shared[owner]) piece.fail(`the track of brick ${brick[i]} has the knots of none before it`);
+      first[i] = first[owner];
+      count[i] = count[owner];
+    }
+    return { tracks, knots, shared, heads: { free, start, brick, first, count, knots, end: new Float64Array(tracks) } };
   }
 
-  private finishHeads(piece: Payload, heads: TrackHeads, tracks: number, time: Float32Array): void {
-    let knot = 0;
+  private finishHeads(piece: Payload, heads: TrackHeads, tracks: number, shared: Uint32Array, time: Float32Array): void {
     for (let i = 0; i < tracks; i++) {
-      for (let k = 0; k < heads.count[i]; k++, knot++) {
-        const bad = !Number.isFinite(time[knot]) || time[knot] < 0 || (k > 0 && time[knot] < time[knot - 1]);
-        if (bad) piece.fail(`knot ${k} of brick ${heads.brick[i]} runs back in time`);
+      const first = heads.first[i];
+      const end = first + heads.count[i];
+      for (let knot = first; knot < end && !shared[i]; knot++) {
+        const bad = !Number.isFinite(time[knot]) || time[knot] < 0 || (knot > first && time[knot] < time[knot - 1]);
+        if (bad) piece.fail(`knot ${knot - first} of brick ${heads.brick[i]} runs back in time`);
       }
-      heads.end[i] = heads.start[i] + time[knot - 1];
+      heads.end[i] = heads.start[i] + time[end - 1];
     }
     this.heads.push(heads);
     this.bricksSeen += tracks;
@@ -200,10 +218,10 @@ function orderTracks(pieces: readonly TrackHeads[], bricks: number): Tracks {
       made.start[slot] = piece.start[i];
       made.end[slot] = piece.end[i];
       made.free[slot] = sort;
-      made.firstKnot[slot] = nextKnot[sort];
+      made.firstKnot[slot] = nextKnot[sort] + piece.first[i];
       made.knotCount[slot] = piece.count[i];
-      nextKnot[sort] += piece.count[i];
     }
+    nextKnot[sort] += piece.knots;
   }
   return made;
 }

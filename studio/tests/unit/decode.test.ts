@@ -57,6 +57,28 @@ describe('decoding', () => {
     expect(Array.from(r.tracks.firstKnot, (k) => Math.fround(r.hinged.angle[k]))).toEqual([0.5, 0.1, 0.2, 0.3].map(Math.fround));
   });
 
+  test('tracks that share the knots of another are played from them, in whatever piece', () => {
+    const piece = (start: number, angle: number): Uint8Array =>
+      new PieceWriter().u32(3).u32(2).f64s([start, start + 1, start + 2]).u32s([2, 4, 5]).u32s([2, 0x80000000, 0x80000000])
+        .f32s([0, 0.5]).f32s([0, angle]).f32s([0, 0]).f32s([0, 0]).piece('HING');
+    const cut = piecesOf(whole).find((p) => p.type === 'HING')!.at;
+    const bytes = joinBytes([whole.subarray(0, cut), piece(1, 0.25), piece(10, 0.75)]);
+    for (const r of [decodeRecording(bytes), decodeRecording(bytes)]) {
+      expect(Array.from(r.tracks.brick)).toEqual([2, 2, 4, 4, 5, 5]);
+      expect(Array.from(r.tracks.end)).toEqual([1.5, 10.5, 2.5, 11.5, 3.5, 12.5]);
+      expect(Array.from(r.tracks.firstKnot)).toEqual([0, 2, 0, 2, 0, 2]);
+      expect(Array.from(r.tracks.knotCount)).toEqual([2, 2, 2, 2, 2, 2]);
+      expect(r.hinged.angle.length).toBe(4);
+    }
+  });
+
+  test.each([2, 3, 0x7fffffff])('a track with the knots of track %i, which is none before it, is refused', (owner) => {
+    const track = new PieceWriter().u32(3).u32(1).f64s([0, 1, 2]).u32s([2, 4, 5]).u32s([1, 0x80000000, 0x80000000 + owner])
+      .f32s([0]).f32s([0]).f32s([0]).f32s([0]).piece('HING');
+    const cut = piecesOf(whole).find((p) => p.type === 'HING')!.at;
+    expect(() => decodeRecording(joinBytes([whole.subarray(0, cut), track]))).toThrow(/brick 5 has the knots of none before it/);
+  });
+
   test('a file cut off at any byte gives what is whole or says in words why not', () => {
     for (let size = 0; size < whole.length; size += 7) {
       try {
