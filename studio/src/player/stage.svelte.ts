@@ -98,6 +98,7 @@ export class Stage {
     const dt = Math.min(0.25, Math.max(0, (now - this.last) / 1000));
     this.last = now;
     this.asked = 0;
+    if (this.view && !this.view.ready) return; // it wakes us
     this.player.advance(dt);
     this.onFrame?.();
     const more = this.drawFrame(dt);

@@ -112,7 +112,8 @@ export class Playhead {
 
 /** Indices in ascending order of their keys. */
 function ordered(keys: Float64Array): Uint32Array {
-  const indices = Uint32Array.from(keys, (_, i) => i);
+  const indices = new Uint32Array(keys.length);
+  for (let i = 0; i < keys.length; i++) indices[i] = i;
   let sorted = true;
   for (let i = 1; i < keys.length && sorted; i++) sorted = keys[i - 1] <= keys[i];
   return sorted ? indices : indices.sort((a, b) => keys[a] - keys[b]);

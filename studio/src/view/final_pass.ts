@@ -70,6 +70,15 @@ export class FinalPass {
     this.scene.add(this.quad);
   }
 
+  /** Asks for the programs, without waiting for them. */
+  compile(): void {
+    for (const material of [this.screen, this.average]) {
+      this.quad.material = material;
+      this.renderer.setRenderTarget(null);
+      this.renderer.compile(this.scene, this.camera);
+    }
+  }
+
   private draw(material: RawShaderMaterial, target: WebGLRenderTarget | null): void {
     this.quad.material = material;
     this.renderer.setRenderTarget(target);

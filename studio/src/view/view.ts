@@ -1,6 +1,6 @@
 /** The 3-D view: one scene, drawn live while anything moves and averaged into a still when nothing does. */
 
-import { HalfFloatType, Raycaster, Scene, SRGBColorSpace, type Mesh, type Ray, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { HalfFloatType, Mesh, Raycaster, Scene, SRGBColorSpace, type Ray, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
 import type { Playhead } from '../recording/playhead.ts';
 import { extentsOf } from '../recording/pose.ts';
 import type { Recording } from '../recording/types.ts';
@@ -81,6 +81,23 @@ export class View {
     this.pass = new FinalPass(this.renderer);
     this.still = new Still(this.renderer, this.pass);
     this.live = new WebGLRenderTarget(1, 1, { type: HalfFloatType, samples: this.software ? 0 : 4 });
+    void this.makeShaders().then(wake);
+  }
+
+  /** Whether a frame can be drawn without waiting for the shaders, which a browser makes beside the page's thread if it can. */
+  ready = false;
+
+  private async makeShaders(): Promise<void> {
+    const { renderer } = this;
+    this.light.useLive();
+    const shadow = new Mesh(this.bricks.mesh.geometry, this.bricks.mesh.customDepthMaterial);
+    this.scene.add(shadow);
+    this.pass.compile();
+    renderer.setRenderTarget(this.live); // a program is made for what it draws into
+    const made = renderer.compileAsync(this.scene, this.rig.camera);
+    this.scene.remove(shadow);
+    await made;
+    this.ready = true;
   }
 
   /** Other bricks take the place of those that are shown; the camera stays. */
