@@ -33,7 +33,7 @@ std::map<BrickId, Vec3> places(const Model& model) {
 }
 
 // A leapfrog's places obey m (x(n+1) - 2 x(n) + x(n-1)) / dt^2 = force at n + weight exactly, as long as nothing strikes. Bricks that
-// lean on each other knock again later, without an event: the steps end before.
+// lean on each other knock again without an event: then the count of points that press changes.
 int compare_with_motion(const Layout& layout, int steps) {
   auto model = rigid::make_rigid_model(layout, {});
   REQUIRE(model.has_value());
@@ -42,17 +42,21 @@ int compare_with_motion(const Layout& layout, int steps) {
   int compared = 0;
   std::map<BrickId, Vec3> before, now, forces;
   int quiet = 0;  // Steps without an impact, up to now.
+  std::size_t touching = 0;
   for (int step = 0; step < steps; ++step) {
     (*model)->step();
     const std::map<BrickId, Vec3> next = places(**model);
-    quiet = (*model)->events().empty() ? quiet + 1 : 0;
+    const std::size_t count = (*model)->contacts().size();
+    quiet = (*model)->events().empty() && count == touching ? quiet + 1 : 0;
+    touching = count;
     for (const auto& [brick, centre] : next) {
-      if (quiet < 3 || !before.contains(brick) || !now.contains(brick)) continue;
+      if (quiet < 4 || !before.contains(brick) || !now.contains(brick)) continue;
       const Vec3 acceleration = (1.0 / (dt * dt)) * (centre - 2.0 * now[brick] + before[brick]);
       const Vec3 wanted = layout.kinds[0].mass * acceleration + Vec3{0.0, 0.0, weight};
       const Vec3 off = forces[brick] - wanted;
       INFO("step ", step, " brick ", brick);
-      CHECK(std::sqrt(dot(off, off)) < 1e-6 * weight);
+      // Where two bricks move or fewer a step is three shorter ones, and the force at its beginning is not quite that of its middle.
+      CHECK(std::sqrt(dot(off, off)) < (before.size() > 2 ? 1e-6 : 1e-3) * weight);
       ++compared;
     }
     before = now;

@@ -27,6 +27,8 @@ Quat turn_by(const Vec3& turn) {
   return {cosine, sine_over * turn.x, sine_over * turn.y, sine_over * turn.z};
 }
 
+}  // namespace
+
 Vec3 free_rotation(const Body& body) {
   // Euler's equation without torque: I dw/dt = -w x I w.
   const Vec3 local = transposed_times(body.axes, body.angular_velocity);
@@ -35,8 +37,6 @@ Vec3 free_rotation(const Body& body) {
   const Vec3 rate{torque.x / body.inertia.x, torque.y / body.inertia.y, torque.z / body.inertia.z};
   return body.axes * rate;
 }
-
-}  // namespace
 
 void refresh(Body& body) {
   body.axes = rotation(body.orientation);

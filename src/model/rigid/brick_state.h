@@ -29,6 +29,9 @@ struct Body {
 /// Sets what follows from the pose.
 void refresh(Body& body);
 
+/// Its angular acceleration while no torque acts [rad/s^2].
+Vec3 free_rotation(const Body& body);
+
 /// Moves a body by its velocities for `time` [s]; second order in time, angular momentum kept exactly.
 void drift(Body& body, double time);
 

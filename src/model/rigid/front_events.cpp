@@ -124,6 +124,15 @@ void Front::note_rest(int place, double now) {
   events_.push_back(plain_event(EventKind::rested, now, body.id, by));
 }
 
+// Of a brick that has been given a velocity: the points that do not part go on to touch.
+void Front::keep_what_stays(Touch& touch) const {
+  const double slow = 0.5 * world_.gravity * world_.step;
+  for (int k = 0; k < touch.now.count; ++k) {
+    PointMemory& memory = touch.memory[static_cast<std::size_t>(k)];
+    memory = memory.active && -closing_speed(touch, k) <= slow ? kTouching : PointMemory{};
+  }
+}
+
 void Front::begin_push(const Push& push, double now) {
   const int place = place_of(push.brick);
   Body& body = bodies_[static_cast<std::size_t>(place)];
@@ -143,7 +152,7 @@ void Front::begin_push(const Push& push, double now) {
     refresh(body);
     ledger_.push_work += kinetic_energy(body) - before;
     for (Touch& touch : touches_) {
-      if (touch.a == place || touch.b == place) touch.memory = {};
+      if (touch.a == place || touch.b == place) keep_what_stays(touch);
     }
   } else if (const auto* force = std::get_if<ForcePush>(&push.how)) {
     const Vec3 local = rotate(back, Vec3{0.0, 0.0, force->height - 0.5 * size.up} - (0.5 * size.along) * heading);

@@ -27,16 +27,19 @@ const PointMemory* recall(const Touch& before, const TouchPoint& point, double n
   return same != nullptr ? same : found;
 }
 
-// The distance of the nearest point that is not active yet.
-double new_distance(const Touch& touch, double near, const Manifold& manifold) {
-  if (manifold.count == 0) return manifold.parted;
-  double least = 1e300;
-  for (int k = 0; k < manifold.count; ++k) {
-    const TouchPoint& point = manifold.points[static_cast<std::size_t>(k)];
-    const PointMemory* memory = recall(touch, point, near);
-    if (memory == nullptr || !memory->active) least = std::min(least, point.separation);
+bool was_active(const Touch& touch, const TouchPoint& point, double near) {
+  const PointMemory* memory = recall(touch, point, near);
+  return memory != nullptr && memory->active;
+}
+
+// Whether it takes part, or is so near that it has just parted.
+bool has_touched(const Touch& touch, const TouchPoint& point, double recalled, double near) {
+  if (was_active(touch, point, recalled)) return true;
+  for (int k = 0; k < touch.now.count; ++k) {
+    const TouchPoint& now = touch.now.points[static_cast<std::size_t>(k)];
+    if (now.feature == point.feature) return now.separation <= near;
   }
-  return least;
+  return false;
 }
 
 void find(const Body& a, const Body* b, double margin, Manifold& out) {
@@ -99,10 +102,14 @@ void Front::try_drift(double time) {
 double Front::first_impact(double time) {
   double first = time;
   for (const Touch& touch : touches_) {
-    if (touch.next.count == 0) continue;
-    const double near = world_.tolerances.touching * thinner(touch);
-    if (new_distance(touch, recall_within(touch), touch.next) > -near) continue;
-    first = std::min(first, impact_of(touch, time));
+    // Flush faces come and go by a hair's breadth.
+    const double deep = (world_.stacked ? world_.tolerances.touching : world_.tolerances.located) * thinner(touch);
+    const double recalled = recall_within(touch);
+    for (int k = 0; k < touch.next.count; ++k) {
+      const TouchPoint& point = touch.next.points[static_cast<std::size_t>(k)];
+      if (point.separation > -deep || was_active(touch, point, recalled)) continue;
+      first = std::min(first, impact_of(touch, point, time));
+    }
   }
   return first;
 }
@@ -110,7 +117,8 @@ double Front::first_impact(double time) {
 // Flush faces swap their features at every rounding.
 double Front::recall_within(const Touch& touch) const { return world_.stacked ? world_.tolerances.touching * thinner(touch) : 0.0; }
 
-double Front::distance_at(const Touch& touch, double time, double whole) const {
+// The distance of one point at a moment of the drift.
+double Front::distance_at(const Touch& touch, std::uint32_t feature, double time, double whole) const {
   Manifold manifold;
   manifold.axis = touch.now.axis;
   const Body a = body_at(static_cast<std::size_t>(touch.a), time, whole);
@@ -120,18 +128,25 @@ double Front::distance_at(const Touch& touch, double time, double whole) const {
     const Body b = body_at(static_cast<std::size_t>(touch.b), time, whole);
     find(a, &b, 1e300, manifold);
   }
-  return new_distance(touch, recall_within(touch), manifold);
+  if (manifold.count == 0) return manifold.parted;
+  // Where faces are all but parallel a point may have another name now: then it is the nearest new one.
+  const double near = world_.tolerances.touching * thinner(touch), recalled = recall_within(touch);
+  double least = 1e300;
+  for (int k = 0; k < manifold.count; ++k) {
+    const TouchPoint& point = manifold.points[static_cast<std::size_t>(k)];
+    if (point.feature == feature) return point.separation;
+    if (!has_touched(touch, point, recalled, near)) least = std::min(least, point.separation);
+  }
+  return least;
 }
 
-// The moment at which a point of this pair begins to touch.
-double Front::impact_of(const Touch& touch, double time) const {
+// The moment at which a point begins to touch that is deep at the end of the drift.
+double Front::impact_of(const Touch& touch, const TouchPoint& point, double time) const {
   const double thin = thinner(touch), enough = world_.tolerances.located * thin;
-  const double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, recall_within(touch), touch.next);
-  // It touched from the beginning without taking part: nothing to locate.
-  if (at_low <= world_.tolerances.touching * thin || at_low > 1e200) return time;
-  return zero_between(
-      time, at_low, at_high, 30, [&](double moment) { return distance_at(touch, moment, time); },
-      [&](double distance) { return std::abs(distance) <= enough || !(distance < 1e200); });
+  return impact_between(
+      time, world_.tolerances.touching * thin, point.separation,
+      [&](double moment) { return distance_at(touch, point.feature, moment, time); },
+      [&](double distance) { return std::abs(distance) <= enough; });
 }
 
 // Moves on by `cut` of a drift that was tried for `whole`; a point is the same where its feature is.
@@ -223,15 +238,15 @@ bool Front::closes_fast() const {
 void Front::take_blow(double next, bool ends_step) {
   // At the end of a step others read the velocities right after it, and forces may act then that did not before.
   const bool bounced = blow(ends_step && struck_now_.empty());
-  plan(next);
+  plan(next, !bounced);
   for (Touch& touch : touches_) touch.load = 0.0;
   if (bounced) return;
-  // The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Member& member = members_[i];
-    if (!member.moving) continue;
-    bodies_[i].velocity = member.middle.velocity - (0.5 * next) * member.gain.velocity;
-    bodies_[i].angular_velocity = member.middle.spin - (0.5 * next) * member.gain.spin;
+    if (!members_[i].moving) continue;
+    const Twist after = after_the_blow(members_[i], next);
+    bodies_[i].velocity = after.velocity;
+    bodies_[i].angular_velocity = after.spin;
+    bodies_[i].gyroscopic = free_rotation(bodies_[i]);
   }
 }
 

@@ -23,6 +23,8 @@ constexpr double kLoadedCompliance = 3e-3;
 // Sticking that changes from nothing to the limit of friction slips by this in the step, as a fraction of sqrt(gravity x height).
 constexpr double kCreep = 4e-4;
 
+constexpr int kBends = 3;  // So many times a blow is solved again with the turning that it makes.
+
 Twist twist_of(const Body& body) { return {body.velocity, body.angular_velocity}; }
 
 void set_twist(Body& body, const Twist& twist) {
@@ -90,8 +92,10 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
   list_those_that_strayed();
   wake_unsupported(begin);
   const double end = begin + world_.step;
+  const int strides = moving_ <= kFew ? kStridesOfFew : 1;
+  stride_ = world_.step / strides;
   double now = begin;
-  int cuts = 0;
+  int cuts = 0, stride = 1;
   std::size_t next = 0;
   while (true) {
     while (next < moments.size() && moments[next].time <= now) {
@@ -106,13 +110,15 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
       }
     }
     if (now >= end) break;
-    const double until = next < moments.size() ? std::min(end, moments[next].time) : end;
-    const double taken = part(now, until - now, cuts < world_.tolerances.cuts);
+    const double whole = stride < strides ? begin + stride * stride_ : end;
+    const double until = next < moments.size() ? std::min(whole, moments[next].time) : whole;
+    const double taken = part(now, until - now, cuts < world_.tolerances.cuts * moving_);
     if (taken < until - now) {
       ++cuts;
       now += taken;
     } else {
       now = until;
+      stride += now < whole ? 0 : 1;
     }
   }
   retire(end);
@@ -120,7 +126,7 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
 
 // One part of the step, of at most `time`; returns how long it was.
 double Front::part(double begin, double time, bool may_cut) {
-  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time);
+  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, false);
   try_drift(time);
   const double cut = may_cut ? first_impact(time) : time;
   accept_drift(begin, cut, time);
@@ -128,7 +134,7 @@ double Front::part(double begin, double time, bool may_cut) {
   struck_now_.clear();
   const bool fresh = activate_new_points();
   wake_struck(now);
-  const double next = cut < time ? time - cut : world_.step;
+  const double next = cut < time ? time - cut : stride_;
   if (!struck_now_.empty() || (fresh && (cut < time || closes_fast()))) {
     take_blow(next, cut == time);
     note_struck(now);
@@ -186,6 +192,7 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
 // After a drift for `time` no active point will be closer than touching.
 void Front::set_bias(double time) {
   const double slow = 0.5 * world_.gravity * world_.step;
+  bends_.clear();
   for (ContactRow& row : rows_) {
     const Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
     const double separation = flush_separation(touch, row.point, world_.tolerances.touching * thinner(touch));
@@ -193,7 +200,8 @@ void Front::set_bias(double time) {
     const double gap = separation > 0.0 ? separation / time : std::max(separation / world_.step, -slow);
     // What it carried before is there without any slip.
     const Vec3 carried = (row.n / row.normal_stiffness) * row.normal + (1.0 / row.tangent_stiffness) * row.friction_impulse;
-    row.bias = gap * row.normal + (0.5 * time) * curvature(row, touch.now, bodies_) - carried;
+    bends_.push_back((0.5 * time) * curvature(row, touch.now, bodies_));
+    row.bias = gap * row.normal + bends_.back() - carried;
   }
 }
 
@@ -222,30 +230,62 @@ void Front::slow_ball(std::size_t place, double time) {
 
 // Bodies come with the velocities that they would have without contact.
 void Front::solve_contacts(std::span<const Twist> guess) {
-  const double tolerance = world_.tolerances.velocity * std::sqrt(world_.gravity * world_.smallest);
+  const double unit = std::sqrt(world_.gravity * world_.smallest), tolerance = world_.tolerances.velocity * unit;
   if (chain_solver_.solve(bodies_, rows_, guess, tolerance)) return;
-  impulse_solver_.solve(bodies_, rows_, {tolerance, world_.tolerances.sweeps, world_.stacked});
+  unsolved_.assign(bodies_.begin(), bodies_.end());
+  const double change = impulse_solver_.solve(bodies_, rows_, {tolerance, world_.tolerances.sweeps, world_.stacked});
+  if (world_.stacked || change < world_.tolerances.lost * unit) return;
+  std::copy(unsolved_.begin(), unsolved_.end(), bodies_.begin());
+  impulse_solver_.solve(bodies_, rows_, {tolerance, world_.tolerances.sweeps, true});
 }
 
-// Half a kick from the velocities of this moment, for a drift of `time`.
-void Front::plan(double time) {
+void Front::solve_half_a_kick(double time) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
+  kick(0.5 * time);
+  solve_contacts(now_);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) members_[i].middle = twist_of(bodies_[i]);
+}
+
+// The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
+Twist Front::after_the_blow(const Member& member, double time) {
+  if (!member.moving) return {};
+  return {member.middle.velocity - (0.5 * time) * member.gain.velocity, member.middle.spin - (0.5 * time) * member.gain.spin};
+}
+
+// A brick that is struck turns at once, and so do the paths of its points bend. Whether that makes a difference; the rows expect it then.
+bool Front::bends_otherwise(double time) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    set_twist(bodies_[i], after_the_blow(members_[i], time));
+    bodies_[i].gyroscopic = free_rotation(bodies_[i]);
+  }
+  bool otherwise = false;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Touch& touch = touches_[static_cast<std::size_t>(rows_[k].touch)];
+    const Vec3 bend = (0.5 * time) * curvature(rows_[k], touch.now, bodies_), more = bend - bends_[k];
+    otherwise = otherwise || time * std::abs(dot(more, rows_[k].normal)) > world_.tolerances.bends * thinner(touch);
+    rows_[k].bias = rows_[k].bias + more;
+    bends_[k] = bend;
+  }
+  return otherwise;
+}
+
+// Half a kick from the velocities of this moment, for a drift of `time`; together with a blow, if there is one.
+void Front::plan(double time, bool with_blow) {
   make_rows(&PointMemory::kick, 0.5 * time);
   set_bias(time);
   now_.clear();
   for (const Body& body : bodies_) now_.push_back(twist_of(body));
-  kick(0.5 * time);
-  solve_contacts(now_);
+  solve_half_a_kick(time);
+  for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], members_[i].middle);
   remember_impulses(0.5 * time, &PointMemory::kick);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    members_[i].middle = twist_of(bodies_[i]);
-    set_twist(bodies_[i], now_[i]);
-  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
   planned_for_ = time;
 }
 
 // A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
 void Front::leap(double time) {
-  const double next = world_.step;
+  const double next = stride_;
   make_rows(&PointMemory::kick, 0.5 * (time + next));
   set_bias(next);
   guess_.clear();
@@ -265,7 +305,7 @@ void Front::leap(double time) {
   planned_for_ = next;
 }
 
-// Keeps what the points carry and do; one that parts has to come back to touch again.
+// Keeps what the points carry and do; one that has parted has to come back to touch again.
 void Front::remember_impulses(double time, ContactState PointMemory::* states) {
   const double slow = 0.5 * world_.gravity * world_.step;
   for (Touch& touch : touches_) touch.impulse = 0.0;
@@ -278,7 +318,8 @@ void Front::remember_impulses(double time, ContactState PointMemory::* states) {
       memory.normal_force = row.n / time;
       memory.friction_force = (1.0 / time) * row.friction_impulse;
     }
-    if (!row.state.pressed && -closing_speed(touch, row.point) > slow) memory.active = false;
+    const bool clear = touch.now.points[static_cast<std::size_t>(row.point)].separation > world_.tolerances.touching * thinner(touch);
+    if (clear && !row.state.pressed && -closing_speed(touch, row.point) > slow) memory.active = false;
   }
   for (Touch& touch : touches_) touch.load = time > 0.0 ? touch.impulse / time : 0.0;
 }

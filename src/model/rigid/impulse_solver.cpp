@@ -135,14 +135,15 @@ void ImpulseSolver::begin(std::span<Body> bodies, std::span<const ContactRow> ro
   for (const SweepRow& row : rows_) apply(bodies, row, row.n, row.s, row.t);
 }
 
-void ImpulseSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, const SolveLimits& limits) {
+double ImpulseSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, const SolveLimits& limits) {
   begin(bodies, rows);
   if (limits.stacked) order_.find(rows, bodies);
   constexpr int kSweepsBeforeNewton = 24;
   constexpr double kLeastPenalty = 1.0, kFirstPenalty = 1e4, kMostPenalty = 1e5;
   NewtonSolver::Effort effort{kFirstPenalty, limits.tolerance};
+  double change = 0.0;
   for (int sweeps = 0; sweeps < limits.sweeps; ++sweeps) {
-    double change = 0.0;
+    change = 0.0;
     if (sweeps % 2 == 0) {
       for (std::size_t i = 0; i < rows_.size(); ++i) change = std::max(change, solve_row(rows_[i], bodies));
     } else {
@@ -161,6 +162,7 @@ void ImpulseSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, co
     const double limit = from.friction * (from.base + from.n);
     row.state = {from.n > 0.0, from.s * from.s + from.t * from.t >= 0.999 * limit * limit};
   }
+  return change;
 }
 
 }  // namespace topple::rigid

@@ -20,8 +20,8 @@ class ImpulseSolver {
  public:
   /// Gauss-Seidel from the impulses that the rows hold, forwards and backwards in turn; when it has not settled after a few sweeps,
   /// Newton's method between them. `bodies` come with the velocities that they would have without contact; afterwards they have their
-  /// velocities and the rows their impulses.
-  void solve(std::span<Body> bodies, std::span<ContactRow> rows, const SolveLimits& limits);
+  /// velocities and the rows their impulses. Returns by how much the last sweep changed a velocity [m/s].
+  double solve(std::span<Body> bodies, std::span<ContactRow> rows, const SolveLimits& limits);
 
  private:
   void begin(std::span<Body> bodies, std::span<const ContactRow> rows);

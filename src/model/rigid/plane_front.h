@@ -114,12 +114,15 @@ class PlaneFront final : public Wave {
   void recall(const Pattern& pattern, int head, int most = 1 << 20);
   void keep(Pattern& pattern, int head, int most = 1 << 20) const;
   bool closes_fast() const;
-  void plan(double time, Pattern* pattern = nullptr);
+  void plan(double time, bool with_blow, Pattern* pattern = nullptr);
+  void solve_half_a_kick(double time);
+  static PlaneVec after_the_blow(const PlaneBrick& brick, double time);
+  bool bends_otherwise(double time);
   void leap(double time);
   void kick(std::span<PlaneUnknown> unknowns, double time) const;
   void let_lean(PlaneTouch& touch, bool a_rests) const;
   void make_rows(PointState PlaneMemory::* guess);
-  void set_bias(double time);
+  void set_bias(double time, bool after_blow = false);
   void remember_impulses(double time, PointState PlaneMemory::* states);
   void try_drift(double time);
   static double way_to(const PlaneBrick& brick, const PlaneBox& box);
@@ -127,8 +130,8 @@ class PlaneFront final : public Wave {
   static void accept(PlaneTouch& touch);
   void find_near_pairs();
   double first_impact(double time);
-  double impact_of(const PlaneTouch& touch, double time) const;
-  double distance_at(const PlaneTouch& touch, double time, double whole) const;
+  double impact_of(const PlaneTouch& touch, const PlanePoint& point, double time) const;
+  double distance_at(const PlaneTouch& touch, std::uint8_t feature, double time, double whole) const;
   PlaneBox box_at(const PlaneBrick& brick, double time, double whole) const;
   void accept_drift(double cut, double whole);
   bool activate_new_points();
@@ -153,6 +156,7 @@ class PlaneFront final : public Wave {
   double half_width_ = 0.0;  // Widest of its bricks [m].
   bool leaves_plane_ = false;
   int moving_ = 0;
+  double stride_ = 0.0;       // The step, or a part of it: how long drifts are [s].
   double planned_for_ = 0.0;  // `middle` is good for a drift of this time [s]; 0: for none.
   bool rested_ = false;       // Some brick came to rest since the lists were made.
   std::vector<PlaneBrick> bricks_, spare_;

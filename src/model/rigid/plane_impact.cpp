@@ -73,13 +73,23 @@ bool was_active(const PlaneTouch& touch, std::uint8_t feature) {
   return false;
 }
 
-// The distance of the nearest point that is not active yet.
-double new_distance(const PlaneTouch& touch, const PlaneManifold& manifold) {
+// Whether it takes part, or is so near that it has just parted.
+bool has_touched(const PlaneTouch& touch, std::uint8_t feature, double near) {
+  for (int k = 0; k < touch.now.count; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (touch.now.points[at].feature == feature) return touch.memory[at].active || touch.now.points[at].separation <= near;
+  }
+  return false;
+}
+
+// The distance of one point. Where faces are all but parallel its name may be another one now: then that of the nearest new one.
+double new_distance(const PlaneTouch& touch, const PlaneManifold& manifold, std::uint8_t feature, double near) {
   if (manifold.count == 0) return manifold.parted;
   double least = 1e300;
   for (int k = 0; k < manifold.count; ++k) {
     const PlanePoint& point = manifold.points[static_cast<std::size_t>(k)];
-    if (!was_active(touch, point.feature)) least = std::min(least, point.separation);
+    if (point.feature == feature) return point.separation;
+    if (!has_touched(touch, point.feature, near)) least = std::min(least, point.separation);
   }
   return least;
 }
@@ -91,15 +101,17 @@ double PlaneFront::first_impact(double time) {
   double first = time;
   for (const int pair : near_pairs_) {
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
-    if (touch.next.count == 0) continue;
-    const double near = world_.tolerances.touching * touch.thin;
-    if (new_distance(touch, touch.next) > -near) continue;
-    first = std::min(first, impact_of(touch, time));
+    const double deep = world_.tolerances.located * touch.thin;
+    for (int k = 0; k < touch.next.count; ++k) {
+      const PlanePoint& point = touch.next.points[static_cast<std::size_t>(k)];
+      if (point.separation > -deep || was_active(touch, point.feature)) continue;
+      first = std::min(first, impact_of(touch, point, time));
+    }
   }
   return first;
 }
 
-double PlaneFront::distance_at(const PlaneTouch& touch, double time, double whole) const {
+double PlaneFront::distance_at(const PlaneTouch& touch, std::uint8_t feature, double time, double whole) const {
   PlaneManifold manifold;
   manifold.axis = touch.now.axis;
   const PlaneBox a = box_at(bricks_[static_cast<std::size_t>(touch.a)], time, whole);
@@ -108,18 +120,16 @@ double PlaneFront::distance_at(const PlaneTouch& touch, double time, double whol
   } else {
     touch_boxes(a, box_at(bricks_[static_cast<std::size_t>(touch.b)], time, whole), 1e300, manifold);
   }
-  return new_distance(touch, manifold);
+  return new_distance(touch, manifold, feature, world_.tolerances.touching * touch.thin);
 }
 
-// The moment at which a point of this pair begins to touch.
-double PlaneFront::impact_of(const PlaneTouch& touch, double time) const {
+// The moment at which a point begins to touch that is deep at the end of the drift.
+double PlaneFront::impact_of(const PlaneTouch& touch, const PlanePoint& point, double time) const {
   const double enough = world_.tolerances.located * touch.thin;
-  const double at_low = distance_at(touch, 0.0, time), at_high = new_distance(touch, touch.next);
-  // It touched from the beginning without taking part: nothing to locate.
-  if (at_low <= world_.tolerances.touching * touch.thin || at_low > 1e200) return time;
-  return zero_between(
-      time, at_low, at_high, 30, [&](double moment) { return distance_at(touch, moment, time); },
-      [&](double distance) { return std::abs(distance) <= enough || !(distance < 1e200); });
+  return impact_between(
+      time, world_.tolerances.touching * touch.thin, point.separation,
+      [&](double moment) { return distance_at(touch, point.feature, moment, time); },
+      [&](double distance) { return std::abs(distance) <= enough; });
 }
 
 // Moves on by `cut` of a drift that was tried for `whole`; a point is the same where its feature is.
@@ -217,16 +227,15 @@ bool PlaneFront::closes_fast() const {
 // comes before that. The drift before was planned for `whole`.
 void PlaneFront::take_blow(double whole, double next, bool ends_step) {
   const bool bounced = blow(false);
-  // The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
   for (PlaneBrick& brick : bricks_) {
     if (brick.moving) brick.acceleration = (2.0 / whole) * (brick.middle - brick.before_drift);
   }
-  plan(next, struck_now_.empty() ? nullptr : &strike_);
+  plan(next, !bounced, struck_now_.empty() ? nullptr : &strike_);
   for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].load = 0.0;
   if (bounced) return;
   if (ends_step) return stop_at_once();
   for (PlaneBrick& brick : bricks_) {
-    if (brick.moving) brick.velocity = brick.middle - (0.5 * next) * brick.acceleration;
+    if (brick.moving) brick.velocity = after_the_blow(brick, next);
   }
 }
 

@@ -305,7 +305,7 @@ double PlaneSolver::best_share(std::span<const PlaneUnknown> bodies, std::span<c
   const double at_low = slope_at(0.0), at_high = slope_at(1.0);
   if (at_high <= 0.0 || at_low >= 0.0) return 1.0;
   const double enough = 1e-6 * std::abs(at_low);
-  return zero_between(1.0, at_low, at_high, 40, slope_at, [enough](double found) { return std::abs(found) <= enough; });
+  return zero_between(0.0, 1.0, at_low, at_high, 40, slope_at, [enough](double found) { return std::abs(found) <= enough; });
 }
 
 // One round, from the velocities as they are.

@@ -26,6 +26,8 @@ constexpr int kLedByHead = 2;
 // is energy that nobody gave.
 constexpr double kOverlapLeft = 0.9;
 
+constexpr int kBends = 3;  // So many times a blow is solved again with the turning that it makes.
+
 constexpr int kFloorOf = 1 << 20;  // In a pattern: the floor.
 
 double response(const PlaneBrick& brick, const Column<3>& j) {
@@ -40,8 +42,10 @@ void PlaneFront::advance(double begin, std::span<const PushMoment> moments) {
   for (PlaneBrick& brick : bricks_) brick.velocity_before = brick.velocity;
   wake_unsupported(begin);
   const double end = begin + world_.step;
+  const int strides = moving_ <= kFew ? kStridesOfFew : 1;
+  stride_ = world_.step / strides;
   double now = begin;
-  int cuts = 0;
+  int cuts = 0, stride = 1;
   std::size_t next = 0;
   while (true) {
     while (next < moments.size() && moments[next].time <= now) {
@@ -56,17 +60,19 @@ void PlaneFront::advance(double begin, std::span<const PushMoment> moments) {
       }
     }
     if (now >= end) break;
-    const double until = next < moments.size() ? std::min(end, moments[next].time) : end;
-    const double taken = part(now, until - now, cuts < world_.tolerances.cuts);
+    const double whole = stride < strides ? begin + stride * stride_ : end;
+    const double until = next < moments.size() ? std::min(whole, moments[next].time) : whole;
+    const double taken = part(now, until - now, cuts < world_.tolerances.cuts * moving_);
     cuts += taken < until - now ? 1 : 0;
     now = taken < until - now ? now + taken : until;
+    stride += now < whole ? 0 : 1;
   }
   retire(end);
 }
 
 // One part of the step, of at most `time`; returns how long it was.
 double PlaneFront::part(double begin, double time, bool may_cut) {
-  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time);
+  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, false);
   try_drift(time);
   const double cut = may_cut ? first_impact(time) : time;
   note_arrivals(begin, cut, time);
@@ -75,7 +81,7 @@ double PlaneFront::part(double begin, double time, bool may_cut) {
   struck_now_.clear();
   const bool fresh = activate_new_points();
   wake_struck(now);
-  const double next = cut < time ? time - cut : world_.step;
+  const double next = cut < time ? time - cut : stride_;
   if (!struck_now_.empty() || (fresh && (cut < time || closes_fast()))) {
     take_blow(time, next, cut == time);
     note_struck(now);
@@ -138,8 +144,9 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
   }
 }
 
-// After a drift for `time` no active point will be closer than touching.
-void PlaneFront::set_bias(double time) {
+// After a drift for `time` no active point will be closer than touching; `after_blow` if the bricks turn as they will after the blow that
+// is planned.
+void PlaneFront::set_bias(double time, bool after_blow) {
   const double slow = 0.5 * world_.gravity * world_.step;
   for (PlaneRow& row : rows_) {
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
@@ -149,11 +156,12 @@ void PlaneFront::set_bias(double time) {
     double bend_x = 0.0, bend_z = 0.0, slip_x = 0.0, slip_z = 0.0;
     const auto bend = [&](int place, double side) {
       const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
-      const double x = point.x - brick.box.place.x, z = point.z - brick.box.place.z, w = brick.velocity.turn;
+      const PlaneVec velocity = after_blow ? after_the_blow(brick, time) : brick.velocity;
+      const double x = point.x - brick.box.place.x, z = point.z - brick.box.place.z, w = velocity.turn;
       bend_x -= side * w * w * x;
       bend_z -= side * w * w * z;
-      slip_x += side * (brick.velocity.x + w * z);
-      slip_z += side * (brick.velocity.z - w * x);
+      slip_x += side * (velocity.x + w * z);
+      slip_z += side * (velocity.z - w * x);
       return w;
     };
     const double turn_a = bend(touch.a, 1.0);
@@ -171,6 +179,23 @@ void PlaneFront::set_bias(double time) {
     row.bias = gap + 0.5 * time * normal;
     row.tangent_bias = 0.5 * time * (nz * bend_x - nx * bend_z);
   }
+}
+
+// The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
+PlaneVec PlaneFront::after_the_blow(const PlaneBrick& brick, double time) {
+  return brick.moving ? brick.middle - (0.5 * time) * brick.acceleration : PlaneVec{};
+}
+
+// A brick that is struck turns at once, and so do the paths of its points bend. Whether that makes a difference.
+bool PlaneFront::bends_otherwise(double time) {
+  compression_ = rows_;
+  set_bias(time, true);
+  bool otherwise = false;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const double thin = touches_[static_cast<std::size_t>(rows_[k].touch)].thin;
+    otherwise = otherwise || time * std::abs(rows_[k].bias - compression_[k].bias) > world_.tolerances.bends * thin;
+  }
+  return otherwise;
 }
 
 void PlaneFront::kick(std::span<PlaneUnknown> unknowns, double time) const {
@@ -195,16 +220,7 @@ void PlaneFront::kick(std::span<PlaneUnknown> unknowns, double time) const {
   }
 }
 
-// Half a kick from the velocities of this moment, for a drift of `time`.
-void PlaneFront::plan(double time, Pattern* pattern) {
-  make_rows(&PlaneMemory::kick);
-  const int head = pattern == nullptr ? 0 : place_of(struck_now_.back().brick);
-  if (pattern != nullptr) {
-    recall(*pattern, head);
-    last_struck_ = struck_now_.back().brick;
-    since_strike_ = 0;
-  }
-  set_bias(time);
+void PlaneFront::solve_half_a_kick(double time) {
   for (const PlaneBrick& brick : bricks_) {
     if (!brick.moving) continue;
     unknowns_[static_cast<std::size_t>(brick.unknown)].velocity = brick.velocity;
@@ -215,6 +231,20 @@ void PlaneFront::plan(double time, Pattern* pattern) {
   for (PlaneBrick& brick : bricks_) {
     if (brick.moving) brick.middle = unknowns_[static_cast<std::size_t>(brick.unknown)].velocity;
   }
+}
+
+// Half a kick from the velocities of this moment, for a drift of `time`; together with a blow, if there is one.
+void PlaneFront::plan(double time, bool with_blow, Pattern* pattern) {
+  make_rows(&PlaneMemory::kick);
+  const int head = pattern == nullptr ? 0 : place_of(struck_now_.back().brick);
+  if (pattern != nullptr) {
+    recall(*pattern, head);
+    last_struck_ = struck_now_.back().brick;
+    since_strike_ = 0;
+  }
+  set_bias(time);
+  solve_half_a_kick(time);
+  for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time);
   planned_for_ = time;
   if (pattern != nullptr) keep(*pattern, head);
   // What the points do while a blow acts is not what they will do in the next kick.
@@ -256,7 +286,7 @@ void PlaneFront::keep(Pattern& pattern, int head, int most) const {
 
 // A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
 void PlaneFront::leap(double time) {
-  const double next = world_.step;
+  const double next = stride_;
   make_rows(&PlaneMemory::kick);
   const int head = place_of(last_struck_);
   Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;
@@ -281,7 +311,7 @@ void PlaneFront::leap(double time) {
   planned_for_ = next;
 }
 
-// Keeps what the points carry and do; one that parts has to come back to touch again.
+// Keeps what the points carry and do; one that has parted has to come back to touch again.
 void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states) {
   const double slow = 0.5 * world_.gravity * world_.step;
   for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].impulse = 0.0;
@@ -294,7 +324,8 @@ void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states
     if (memory.fresh) memory.kick = row.state;
     memory.normal = time > 0.0 ? row.normal / time : 0.0;
     memory.tangent = time > 0.0 ? row.tangent / time : 0.0;
-    if (row.state.pressed) continue;
+    if (row.state.pressed || touch.now.points[static_cast<std::size_t>(row.point)].separation <= world_.tolerances.touching * touch.thin)
+      continue;
     double parting = product_of(row.normal_a, unknowns_[static_cast<std::size_t>(row.a)].velocity);
     if (row.b >= 0) parting += product_of(row.normal_b, unknowns_[static_cast<std::size_t>(row.b)].velocity);
     if (parting > slow) memory.active = false;

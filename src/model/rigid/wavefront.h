@@ -86,7 +86,10 @@ class Front final : public Wave {
   void kick(double time);
   void slow_ball(std::size_t place, double time);
   void solve_contacts(std::span<const Twist> guess);
-  void plan(double time);
+  void plan(double time, bool with_blow);
+  void solve_half_a_kick(double time);
+  static Twist after_the_blow(const Member& member, double time);
+  bool bends_otherwise(double time);
   void leap(double time);
   void remember_impulses(double time, ContactState PointMemory::* states);
   Body body_at(std::size_t place, double time, double whole) const;
@@ -95,8 +98,8 @@ class Front final : public Wave {
   double recall_within(const Touch& touch) const;
   void try_drift(double time);
   double first_impact(double time);
-  double impact_of(const Touch& touch, double time) const;
-  double distance_at(const Touch& touch, double time, double whole) const;
+  double impact_of(const Touch& touch, const TouchPoint& point, double time) const;
+  double distance_at(const Touch& touch, std::uint32_t feature, double time, double whole) const;
   void accept_drift(double begin, double cut, double whole);
   double closing_speed(const Touch& touch, int point) const;
   double thinner(const Touch& touch) const;
@@ -114,6 +117,7 @@ class Front final : public Wave {
   void note_struck(double now);
   void note_landed(double now);
   void note_rest(int place, double now);
+  void keep_what_stays(Touch& touch) const;
   void begin_push(const Push& push, double now);
   BrickId supporter(int place) const;
 
@@ -124,8 +128,10 @@ class Front final : public Wave {
   std::vector<Body> bodies_;
   std::vector<Member> members_;
   std::vector<Touch> touches_;
-  std::vector<Body> ahead_;  // The bodies at the end of the part of the step that is tried.
+  std::vector<Body> unsolved_;  // The bodies before their contacts are solved.
+  std::vector<Body> ahead_;     // The bodies at the end of the part of the step that is tried.
   std::vector<ContactRow> rows_, compression_;
+  std::vector<Vec3> bends_;  // Of each row: what the bend of its points' paths adds to their slip [m/s].
   std::vector<Twist> guess_, now_, free_;
   std::vector<ActiveForce> forces_;
   std::vector<BrickId> near_;
@@ -135,6 +141,7 @@ class Front final : public Wave {
     BrickId brick, by;
   };
   std::vector<Struck> struck_now_;
+  double stride_ = 0.0;       // The step, or a part of it: how long drifts are [s].
   double planned_for_ = 0.0;  // The plan is good for a drift of this time [s]; 0: for none.
   Touch before_;
   ChainSolver chain_solver_;

@@ -40,7 +40,8 @@ struct Ledger {
 /// Pure numbers that scale with a brick: lengths are fractions of the thinnest side, times of sqrt(height / gravity).
 struct Tolerances {
   double touching = 1e-3;  ///< Closer than this two bricks touch.
-  double located = 3e-4;   ///< Impacts are located to this.
+  double located = 3e-6;   ///< Impacts are located to this.
+  double bends = 1e-2;     ///< By so much the drift after a blow may miss what touches.
   double margin = 1e-2;    ///< A contact lasts while it is closer than this.
   double retire = 5e-3;    ///< A brick rests when it would move by no more than this from now on...
   double horizon = 1.0;    ///< ...within this time...
@@ -49,8 +50,9 @@ struct Tolerances {
   double in_plane = 5e-2;  ///< A row that has become straight may be out of its plane by this.
   double load = 0.02;      ///< A brick that stands or rests wakes under this share of its weight.
   double velocity = 1e-5;  ///< The solver stops when velocities change by less, as a fraction of sqrt(gravity x height).
+  double lost = 3e-2;      ///< Sweeps that end with changes above this, as such a fraction, have lost their way.
   int sweeps = 60;
-  int cuts = 16;  ///< Impacts located in one step of one front; more are taken at its end.
+  int cuts = 16;  ///< Impacts a moving brick that are located in one step of one front; more are taken at its end.
 };
 
 struct World {
