@@ -10,55 +10,61 @@
 
 namespace topple::rigid {
 
-/// Velocities of a body.
-struct Twist {
-  Vec3 velocity;  ///< [m/s]
-  Vec3 spin;      ///< World axes [rad/s].
-};
-
 /// The law of Coulomb and Signorini in space, with so little compliance that it is felt only where there are more points than needed: those
 /// share their load in one way. A point is open, sticks or slides; within these states all is linear but the way a point slides, which
-/// is linearised about the last one [Alart1991]. Along a wave the states and ways of the last step are nearly those of this one, so some
-/// six systems of equations are solved where sweeps would need hundreds of rounds. It may fail to settle: then it says so.
+/// is linearised about the last one [Alart1991]. It may fail to settle: then it says so.
 class ChainSolver {
  public:
-  /// `bodies` come with the velocities that they would have without contact; `guess` is near what they will have. If it settles, to
-  /// `tolerance` [m/s], bodies have their velocities and rows their impulses afterwards; if not, the
-  /// bodies are as they were and the rows hold the best impulses found, a guess for another method.
-  bool solve(std::span<Body> bodies, std::span<ContactRow> rows, std::span<const Twist> guess, double tolerance);
+  /// In which order bodies are eliminated follows from who touches whom; once for all solutions with the same rows.
+  void begin(std::span<const ContactRow> rows, std::span<const Body> bodies);
+  /// From the states that the rows hold; the way that a point slides follows from `guess`, what velocities will be near. If it settles, to
+  /// `tolerance` [m/s], in `most` systems of equations, `velocity` (of all bodies, without contact before) and rows hold the
+  /// solution; if not, the rows hold the best impulses found.
+  bool solve(std::span<ContactRow> rows, std::span<const Velocity> guess, double tolerance, int most, std::span<Velocity> velocity);
+
+  std::size_t body_count() const { return order_.bodies().size(); }
+  const BodyOrder& order() const { return order_; }
 
  private:
+  /// What a point does in its state: its impulse on a is -(k slip + rest), k by rows; the normal needs no more than its own slip.
+  struct Law {
+    double nn = 0.0, an = 0.0, cn = 0.0, aa = 0.0, ac = 0.0, cc = 0.0;  // n: normal, a: along, c: across [kg].
+    double rest_along = 0.0, rest_across = 0.0;                         // [N s]
+  };
   /// A row's state and the way it slides, as the system of equations has it.
   struct Assumed {
+    int a = -1, b = -1;  // Its bodies' numbers.
     ContactState state;
-    Vec3 way;             // Unit, the way it slides.
-    bool coupled = true;  // Its friction follows its normal impulse; else it is...
-    double limit = 0.0;   // ...this [N s].
-    double drag = 0.0;    // Impulse per velocity across that way [kg].
-    Vec3 impulse;         // That follows from the velocities found, by the true law [N s].
-    double n = 0.0;
+    double way_along = 0.0, way_across = 0.0;  // Unit, the way it slides.
+    bool coupled = true;                       // Its friction follows its normal impulse; else it is...
+    double limit = 0.0;                        // ...this [N s].
+    double drag = 0.0;                         // Impulse per velocity across that way [kg].
+    Law law;
+    Framed impulse{};  // That follows from the velocities found, by the true law [N s].
     ContactState should;
-    Vec3 should_way;
+    double should_along = 0.0, should_across = 0.0;
     double should_limit = 0.0, should_drag = 0.0;
     double wrong = 0.0;   // By how much the state is wrong [m/s].
     bool turned = false;  // It slides another way than assumed.
   };
-  void begin(std::span<const Body> bodies, std::span<const ContactRow> rows, std::span<const Twist> guess);
-  void add(const ContactRow& row, const Assumed& as, double times);
+  void assume(std::span<const ContactRow> rows, std::span<const Velocity> guess);
+  void assemble(std::span<const ContactRow> rows, std::span<const Velocity> free);
+  static Law law_of(const ContactRow& row, const Assumed& as);
+  void add(const ContactRow& row, const Assumed& as, const Law& law);
   bool solve_system(std::size_t from);
-  static void settle_row(const ContactRow& row, const Vec3& slip, double tolerance, Assumed& as);
+  static void settle_row(const ContactRow& row, const Framed& slip, double tolerance, Assumed& as);
   bool settle(std::span<const ContactRow> rows, double tolerance);
+  void keep_best(std::span<const ContactRow> rows);
   std::size_t change(std::span<const ContactRow> rows);
 
   BodyOrder order_;
+  std::vector<double> mass_;   // Of each number [kg].
+  std::vector<Mat3> inertia_;  // [kg m^2]
   BlockEnvelope<6> matrix_;
-  std::vector<Column<6>> right_, velocity_;
+  std::vector<Velocity> right_, velocity_;
   std::vector<Assumed> assumed_;
-  struct Impulse {
-    double n = 0.0;
-    Vec3 friction;
-  };
-  std::vector<Impulse> best_;
+  std::vector<Framed> best_;
+  double least_wrong_ = 0.0;
   std::vector<double> most_wrong_;
 };
 

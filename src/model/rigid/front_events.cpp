@@ -61,8 +61,8 @@ void Front::note_struck(double now) {
       const BrickId a = bodies_[static_cast<std::size_t>(row.a)].id, b = bodies_[static_cast<std::size_t>(row.b)].id;
       if (std::min(a, b) != std::min(struck.brick, struck.by) || std::max(a, b) != std::max(struck.brick, struck.by)) continue;
       const Vec3 at = bodies_[static_cast<std::size_t>(row.a)].position + row.arm_a;
-      impulse += row.n;
-      point = point + row.n * at;
+      impulse += row.impulse[0];
+      point = point + row.impulse[0] * at;
       middle = middle + at;
       ++count;
     }

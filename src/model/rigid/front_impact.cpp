@@ -238,7 +238,7 @@ bool Front::closes_fast() const {
 void Front::take_blow(double next, bool ends_step) {
   // At the end of a step others read the velocities right after it, and forces may act then that did not before.
   const bool bounced = blow(ends_step && struck_now_.empty());
-  plan(next, !bounced);
+  plan(next, !bounced && struck_now_.empty() ? Effort::quick : Effort::exact, !bounced);
   for (Touch& touch : touches_) touch.load = 0.0;
   if (bounced) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -261,14 +261,14 @@ bool Front::blow(bool always) {
   bool bounces = false;
   for (ContactRow& row : rows_) {
     const Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
-    row.bias = (std::max(touch.now.points[static_cast<std::size_t>(row.point)].separation, 0.0) / world_.step) * row.normal;
+    row.bias = {std::max(touch.now.points[static_cast<std::size_t>(row.point)].separation, 0.0) / world_.step, 0.0, 0.0};
     bounces = bounces || (touch.restitution > 0.0 && touch.restitution * closing_speed(touch, row.point) > slow);
   }
   if (!bounces && !always) return false;
   free_.clear();
   for (const Body& body : bodies_) free_.push_back({body.velocity, body.angular_velocity});
   const double before = moving_energy();
-  solve_contacts(free_);
+  solve_contacts(free_, Effort::exact);
   if (bounces) give_back(before);
   remember_impulses(0.0, &PointMemory::blow);
   return true;
@@ -289,7 +289,7 @@ void Front::give_back(double before) {
   const double left = moving_energy(), taken = before - left;
   double most = 0.0;
   for (const ContactRow& row : rows_) {
-    if (row.n > 0.0) most = std::max(most, touches_[static_cast<std::size_t>(row.touch)].restitution);
+    if (row.impulse[0] > 0.0) most = std::max(most, touches_[static_cast<std::size_t>(row.touch)].restitution);
   }
   const double allowed = left + std::max(taken, 0.0) * most * most * (1.0 + 1e-3);
   compression_ = rows_;
@@ -303,7 +303,7 @@ void Front::give_back(double before) {
     }
     bounce_by(low);
   }
-  for (ContactRow& row : rows_) row.n += row.base;
+  for (ContactRow& row : rows_) row.impulse[0] += row.base;
 }
 
 // From the velocities before the blow: all that the compression took, and this share of what should come back.
@@ -315,12 +315,17 @@ void Front::bounce_by(double share) {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     ContactRow& row = rows_[k];
     row.state = compression_[k].state;
-    row.base = (1.0 + share * touches_[static_cast<std::size_t>(row.touch)].restitution) * compression_[k].n;
-    row.n = 0.0;
-    row.friction_impulse = {};
-    apply(bodies_, row, row.base * row.normal);
+    row.base = (1.0 + share * touches_[static_cast<std::size_t>(row.touch)].restitution) * compression_[k].impulse[0];
+    row.impulse = {};
+    const auto push = [&](int place, const Velocity& gain) {
+      Body& body = bodies_[static_cast<std::size_t>(place)];
+      body.velocity = body.velocity + row.base * Vec3{gain[0], gain[1], gain[2]};
+      body.angular_velocity = body.angular_velocity + row.base * Vec3{gain[3], gain[4], gain[5]};
+    };
+    push(row.a, row.gain_a[0]);
+    if (row.b != kFloor) push(row.b, row.gain_b[0]);
   }
-  solve_contacts(free_);
+  solve_contacts(free_, Effort::exact);
 }
 
 bool Front::is_hit(const Touch& touch, std::size_t still) const {

@@ -32,18 +32,6 @@ void set_twist(Body& body, const Twist& twist) {
   body.angular_velocity = twist.spin;
 }
 
-// Velocity per impulse of a point: along the normal, and the sum over three directions at right angles [1/kg].
-struct Response {
-  double normal = 0.0, all = 0.0;
-};
-
-Response response(const Body& body, const Vec3& arm, const Vec3& normal) {
-  const Mat3& g = body.inverse_inertia;
-  const Vec3 turn = cross(arm, normal);
-  const double trace = g.r0.x + g.r1.y + g.r2.z;
-  return {body.inverse_mass + dot(turn, g * turn), 3.0 * body.inverse_mass + dot(arm, arm) * trace - dot(arm, g * arm)};
-}
-
 // A ball's point is always the nearest one, however it turns: for the distance it is as if it did not.
 Vec3 spin_of(const Body& body) { return body.round ? Vec3{} : body.angular_velocity; }
 
@@ -126,7 +114,7 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
 
 // One part of the step, of at most `time`; returns how long it was.
 double Front::part(double begin, double time, bool may_cut) {
-  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, false);
+  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, Effort::exact, false);
   try_drift(time);
   const double cut = may_cut ? first_impact(time) : time;
   accept_drift(begin, cut, time);
@@ -166,14 +154,8 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
       row.point = k;
       row.normal = touch.now.normal;
       row.arm_a = touch.now.points[at].position - a.position;
-      Response sum = response(a, row.arm_a, row.normal);
-      if (b != nullptr) {
-        row.arm_b = touch.now.points[at].position - b->position;
-        const Response other = response(*b, row.arm_b, row.normal);
-        sum = {sum.normal + other.normal, sum.all + other.all};
-      }
-      row.normal_mass = 1.0 / sum.normal;
-      row.mass = 2.0 / (sum.all - sum.normal);
+      if (b != nullptr) row.arm_b = touch.now.points[at].position - b->position;
+      set_frame(row, a, b);
       row.normal_stiffness = row.normal_mass / kCompliance;
       row.tangent_stiffness = row.mass / kCompliance;
       const double carries = world_.stacked ? 0.0 : time * memory.normal_force;
@@ -183,8 +165,9 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
       }
       row.friction = touch.friction;
       row.state = memory.*guess;
-      row.n = time * memory.normal_force;
-      row.friction_impulse = time * memory.friction_force;
+      set_steps(row);
+      row.impulse = {time * memory.normal_force, time * dot(row.along, memory.friction_force),
+                     time * dot(row.across, memory.friction_force)};
     }
   }
 }
@@ -199,9 +182,10 @@ void Front::set_bias(double time) {
     // An overlap goes within a step, but never so fast that it would throw the bricks apart.
     const double gap = separation > 0.0 ? separation / time : std::max(separation / world_.step, -slow);
     // What it carried before is there without any slip.
-    const Vec3 carried = (row.n / row.normal_stiffness) * row.normal + (1.0 / row.tangent_stiffness) * row.friction_impulse;
     bends_.push_back((0.5 * time) * curvature(row, touch.now, bodies_));
-    row.bias = gap * row.normal + bends_.back() - carried;
+    const Vec3& bend = bends_.back();
+    row.bias = {gap + dot(row.normal, bend) - row.give_normal * row.impulse[0], dot(row.along, bend) - row.give * row.impulse[1],
+                dot(row.across, bend) - row.give * row.impulse[2]};
   }
 }
 
@@ -229,20 +213,16 @@ void Front::slow_ball(std::size_t place, double time) {
 }
 
 // Bodies come with the velocities that they would have without contact.
-void Front::solve_contacts(std::span<const Twist> guess) {
+void Front::solve_contacts(std::span<const Twist> guess, Effort effort) {
   const double unit = std::sqrt(world_.gravity * world_.smallest), tolerance = world_.tolerances.velocity * unit;
-  if (chain_solver_.solve(bodies_, rows_, guess, tolerance)) return;
-  unsolved_.assign(bodies_.begin(), bodies_.end());
-  const double change = impulse_solver_.solve(bodies_, rows_, {tolerance, world_.tolerances.sweeps, world_.stacked});
-  if (world_.stacked || change < world_.tolerances.lost * unit) return;
-  std::copy(unsolved_.begin(), unsolved_.end(), bodies_.begin());
-  impulse_solver_.solve(bodies_, rows_, {tolerance, world_.tolerances.sweeps, true});
+  solver_.solve(bodies_, rows_, guess,
+                {tolerance, world_.tolerances.sweeps, world_.tolerances.lost * unit, world_.stacked ? Effort::stacked : effort});
 }
 
-void Front::solve_half_a_kick(double time) {
+void Front::solve_half_a_kick(double time, Effort effort) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
   kick(0.5 * time);
-  solve_contacts(now_);
+  solve_contacts(now_, effort);
   for (std::size_t i = 0; i < bodies_.size(); ++i) members_[i].middle = twist_of(bodies_[i]);
 }
 
@@ -263,22 +243,23 @@ bool Front::bends_otherwise(double time) {
     const Touch& touch = touches_[static_cast<std::size_t>(rows_[k].touch)];
     const Vec3 bend = (0.5 * time) * curvature(rows_[k], touch.now, bodies_), more = bend - bends_[k];
     otherwise = otherwise || time * std::abs(dot(more, rows_[k].normal)) > world_.tolerances.bends * thinner(touch);
-    rows_[k].bias = rows_[k].bias + more;
+    Framed& bias = rows_[k].bias;
+    bias = {bias[0] + dot(more, rows_[k].normal), bias[1] + dot(more, rows_[k].along), bias[2] + dot(more, rows_[k].across)};
     bends_[k] = bend;
   }
   return otherwise;
 }
 
 // Half a kick from the velocities of this moment, for a drift of `time`; together with a blow, if there is one.
-void Front::plan(double time, bool with_blow) {
+void Front::plan(double time, Effort effort, bool with_blow) {
   make_rows(&PointMemory::kick, 0.5 * time);
   set_bias(time);
   now_.clear();
   for (const Body& body : bodies_) now_.push_back(twist_of(body));
-  solve_half_a_kick(time);
-  for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time);
+  solve_half_a_kick(time, effort);
+  for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time, effort);
   for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], members_[i].middle);
-  remember_impulses(0.5 * time, &PointMemory::kick);
+  remember_impulses(0.5 * time, &PointMemory::kick, with_blow);
   for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
   planned_for_ = time;
 }
@@ -294,7 +275,7 @@ void Front::leap(double time) {
     set_twist(bodies_[i], members_[i].middle);
   }
   kick(0.5 * (time + next));
-  solve_contacts(guess_);
+  solve_contacts(guess_, Effort::exact);
   remember_impulses(0.5 * (time + next), &PointMemory::kick);
   const double share = time / (time + next);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -305,18 +286,18 @@ void Front::leap(double time) {
   planned_for_ = next;
 }
 
-// Keeps what the points carry and do; one that has parted has to come back to touch again.
-void Front::remember_impulses(double time, ContactState PointMemory::* states) {
+// Keeps what the points do, and carry unless a blow was part of it; one that has parted has to come back to touch again.
+void Front::remember_impulses(double time, ContactState PointMemory::* states, bool with_blow) {
   const double slow = 0.5 * world_.gravity * world_.step;
   for (Touch& touch : touches_) touch.impulse = 0.0;
   for (const ContactRow& row : rows_) {
     Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
     PointMemory& memory = touch.memory[static_cast<std::size_t>(row.point)];
-    touch.impulse += row.n;
+    touch.impulse += row.impulse[0];
     memory.*states = row.state;
-    if (time > 0.1 * world_.step) {
-      memory.normal_force = row.n / time;
-      memory.friction_force = (1.0 / time) * row.friction_impulse;
+    if (!with_blow && time > 0.1 * world_.step) {
+      memory.normal_force = row.impulse[0] / time;
+      memory.friction_force = (1.0 / time) * friction_of(row);
     }
     const bool clear = touch.now.points[static_cast<std::size_t>(row.point)].separation > world_.tolerances.touching * thinner(touch);
     if (clear && !row.state.pressed && -closing_speed(touch, row.point) > slow) memory.active = false;

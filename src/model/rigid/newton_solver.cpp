@@ -16,19 +16,6 @@ constexpr double kBeyondLimit = 0.1;  // Of the tolerance: what friction may be 
 
 constexpr std::size_t kWide = 6;  // Velocities of a brick.
 
-// How velocities of a brick, linear and angular, move the point: rows are normal, along, across.
-std::array<double, 18> motion_of_point(const SweepRow& row, const Vec3& arm, double sign) {
-  std::array<double, 18> out{};
-  const std::array<const Vec3*, 3> directions{&row.normal, &row.along, &row.across};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 linear = sign * *directions[i];
-    const Vec3 angular = cross(arm, linear);
-    const std::array<double, 6> six{linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
-    std::copy(six.begin(), six.end(), out.begin() + static_cast<std::ptrdiff_t>(kWide * i));
-  }
-  return out;
-}
-
 std::array<double, 10> mass_matrix(const Body& body) {
   const Mat3 inertia = conjugated(body.axes, body.inertia);
   return {1.0 / body.inverse_mass, inertia.r0.x, inertia.r0.y, inertia.r0.z, inertia.r1.y, inertia.r1.z, inertia.r2.z};
@@ -56,35 +43,36 @@ std::span<const double> six(std::span<const double> all, int number) {
 std::span<double> six(std::span<double> all, int number) { return all.subspan(kWide * static_cast<std::size_t>(number), kWide); }
 
 // Sum over one brick's side of a point.
-void add_motion(const std::array<double, 18>& j, std::span<const double> v, Vec3& w) {
+void add_motion(const std::array<Velocity, 3>& of, std::span<const double> v, Vec3& w) {
   for (std::size_t k = 0; k < kWide; ++k) {
-    w.x += j[k] * v[k];
-    w.y += j[kWide + k] * v[k];
-    w.z += j[2 * kWide + k] * v[k];
+    w.x += of[0][k] * v[k];
+    w.y += of[1][k] * v[k];
+    w.z += of[2][k] * v[k];
   }
 }
 
 // block += left^T D right, D the point's 3 x 3 stiffness; the block's row is that of `left`.
-void add_stiffness(const std::array<double, 18>& left, const std::array<double, 18>& right, const std::array<double, 4>& d, Block6& block) {
+void add_stiffness(const std::array<Velocity, 3>& left, const std::array<Velocity, 3>& right, const std::array<double, 4>& d,
+                   Block6& block) {
   for (std::size_t c = 0; c < kWide; ++c) {
-    const double n = d[0] * right[c];
-    const double s = d[1] * right[kWide + c] + d[2] * right[2 * kWide + c];
-    const double t = d[2] * right[kWide + c] + d[3] * right[2 * kWide + c];
-    for (std::size_t r = 0; r < kWide; ++r) block[kWide * c + r] += left[r] * n + left[kWide + r] * s + left[2 * kWide + r] * t;
+    const double n = d[0] * right[0][c];
+    const double s = d[1] * right[1][c] + d[2] * right[2][c];
+    const double t = d[2] * right[1][c] + d[3] * right[2][c];
+    for (std::size_t r = 0; r < kWide; ++r) block[kWide * c + r] += left[0][r] * n + left[1][r] * s + left[2][r] * t;
   }
 }
 
 }  // namespace
 
-void NewtonSolver::begin(std::span<const SweepRow> rows, std::span<const Body> bodies, const BodyOrder& order, double penalty) {
+void NewtonSolver::begin(std::span<const ContactRow> rows, std::span<const Velocity> velocity, std::span<const Body> bodies,
+                         const BodyOrder& order, double penalty) {
   order_ = &order;
   mass_.clear();
   start_.clear();
   for (const int body : order.bodies()) {
-    const Body& b = bodies[static_cast<std::size_t>(body)];
-    mass_.push_back(mass_matrix(b));
-    start_.insert(start_.end(),
-                  {b.velocity.x, b.velocity.y, b.velocity.z, b.angular_velocity.x, b.angular_velocity.y, b.angular_velocity.z});
+    mass_.push_back(mass_matrix(bodies[static_cast<std::size_t>(body)]));
+    const Velocity& v = velocity[static_cast<std::size_t>(body)];
+    start_.insert(start_.end(), v.begin(), v.end());
   }
   velocity_ = start_;
   gradient_.resize(start_.size());
@@ -92,29 +80,27 @@ void NewtonSolver::begin(std::span<const SweepRow> rows, std::span<const Body> b
   probe_.resize(start_.size());
   parts_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const SweepRow& row = rows[i];
+    const ContactRow& row = rows[i];
     RowPart& part = parts_[i];
-    part.a = motion_of_point(row, row.arm_a, 1.0);
-    if (row.b != kFloor) part.b = motion_of_point(row, row.arm_b, -1.0);
     part.penalty_n = penalty / row.k_nn;
     part.penalty_t = penalty / std::max(row.k_aa, row.k_cc);
-    part.radius = row.friction * (row.base + row.n);
+    part.radius = row.friction * (row.base + row.impulse[0]);
   }
 }
 
 // What each point's penalty says at these velocities; and how it answers to small changes of them.
-void NewtonSolver::try_impulses(std::span<const SweepRow> rows, std::span<const double> velocity) {
+void NewtonSolver::try_impulses(std::span<const ContactRow> rows, std::span<const double> velocity) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const SweepRow& row = rows[i];
+    const ContactRow& row = rows[i];
     RowPart& part = parts_[i];
-    Vec3 w{row.bias, row.bias_along, row.bias_across};
+    Vec3 w{row.bias[0], row.bias[1], row.bias[2]};
     const int a = order_->number(row.a), b = order_->number(row.b);
-    if (a >= 0) add_motion(part.a, six(velocity, a), w);
-    if (b >= 0) add_motion(part.b, six(velocity, b), w);
-    const double n = row.n - part.penalty_n * w.x;
+    if (a >= 0) add_motion(row.of_a, six(velocity, a), w);
+    if (b >= 0) add_motion(row.of_b, six(velocity, b), w);
+    const double n = row.impulse[0] - part.penalty_n * w.x;
     part.n = std::max(n, 0.0);
     part.stiffness = {n > 0.0 ? part.penalty_n : 0.0, part.penalty_t, 0.0, part.penalty_t};
-    const double s = row.s - part.penalty_t * w.y, t = row.t - part.penalty_t * w.z;
+    const double s = row.impulse[1] - part.penalty_t * w.y, t = row.impulse[2] - part.penalty_t * w.z;
     const double size = std::sqrt(s * s + t * t);
     part.s = s;
     part.t = t;
@@ -131,27 +117,27 @@ void NewtonSolver::try_impulses(std::span<const SweepRow> rows, std::span<const 
 }
 
 // M (v - start) - J^T (trial impulses - those that act already).
-void NewtonSolver::gradient(std::span<const SweepRow> rows, std::span<const double> velocity, std::span<double> out) const {
+void NewtonSolver::gradient(std::span<const ContactRow> rows, std::span<const double> velocity, std::span<double> out) const {
   for (std::size_t i = 0; i < order_->bodies().size(); ++i) {
     std::array<double, 6> change{};
     for (std::size_t k = 0; k < kWide; ++k) change[k] = velocity[kWide * i + k] - start_[kWide * i + k];
     const std::array<double, 6> momentum = times(mass_[i], change);
     std::copy(momentum.begin(), momentum.end(), six(out, static_cast<int>(i)).begin());
   }
-  const auto pull = [](const std::array<double, 18>& j, const Vec3& impulse, std::span<double> g) {
-    for (std::size_t k = 0; k < kWide; ++k) g[k] -= j[k] * impulse.x + j[kWide + k] * impulse.y + j[2 * kWide + k] * impulse.z;
+  const auto pull = [](const std::array<Velocity, 3>& of, const Framed& impulse, std::span<double> g) {
+    for (std::size_t k = 0; k < kWide; ++k) g[k] -= of[0][k] * impulse[0] + of[1][k] * impulse[1] + of[2][k] * impulse[2];
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const SweepRow& row = rows[i];
+    const ContactRow& row = rows[i];
     const RowPart& part = parts_[i];
-    const Vec3 impulse{part.n - row.n, part.s - row.s, part.t - row.t};
+    const Framed impulse{part.n - row.impulse[0], part.s - row.impulse[1], part.t - row.impulse[2]};
     const int a = order_->number(row.a), b = order_->number(row.b);
-    if (a >= 0) pull(part.a, impulse, six(out, a));
-    if (b >= 0) pull(part.b, impulse, six(out, b));
+    if (a >= 0) pull(row.of_a, impulse, six(out, a));
+    if (b >= 0) pull(row.of_b, impulse, six(out, b));
   }
 }
 
-void NewtonSolver::assemble(std::span<const SweepRow> rows) {
+void NewtonSolver::assemble(std::span<const ContactRow> rows) {
   matrix_.shape(order_->first());
   for (std::size_t i = 0; i < order_->bodies().size(); ++i) {
     const std::array<double, 10>& m = mass_[i];
@@ -165,18 +151,18 @@ void NewtonSolver::assemble(std::span<const SweepRow> rows) {
     block[35] = m[6];
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const SweepRow& row = rows[i];
+    const ContactRow& row = rows[i];
     const RowPart& part = parts_[i];
     const int a = order_->number(row.a), b = order_->number(row.b);
-    if (a >= 0) add_stiffness(part.a, part.a, part.stiffness, matrix_.at(a, a));
-    if (b >= 0) add_stiffness(part.b, part.b, part.stiffness, matrix_.at(b, b));
-    if (a >= 0 && b >= 0 && a > b) add_stiffness(part.a, part.b, part.stiffness, matrix_.at(a, b));
-    if (a >= 0 && b >= 0 && b > a) add_stiffness(part.b, part.a, part.stiffness, matrix_.at(b, a));
+    if (a >= 0) add_stiffness(row.of_a, row.of_a, part.stiffness, matrix_.at(a, a));
+    if (b >= 0) add_stiffness(row.of_b, row.of_b, part.stiffness, matrix_.at(b, b));
+    if (a >= 0 && b >= 0 && a > b) add_stiffness(row.of_a, row.of_b, part.stiffness, matrix_.at(a, b));
+    if (a >= 0 && b >= 0 && b > a) add_stiffness(row.of_b, row.of_a, part.stiffness, matrix_.at(b, a));
   }
 }
 
 // Of the energy along the step, at this share of it.
-double NewtonSolver::slope(std::span<const SweepRow> rows, double share) {
+double NewtonSolver::slope(std::span<const ContactRow> rows, double share) {
   for (std::size_t i = 0; i < probe_.size(); ++i) probe_[i] = velocity_[i] + share * step_[i];
   try_impulses(rows, probe_);
   gradient(rows, probe_, gradient_);
@@ -184,7 +170,7 @@ double NewtonSolver::slope(std::span<const SweepRow> rows, double share) {
 }
 
 // The share of the step at which the energy is least; it is convex, so its slope changes sign once.
-double NewtonSolver::search(std::span<const SweepRow> rows) {
+double NewtonSolver::search(std::span<const ContactRow> rows) {
   double low = 0.0, high = 1.0;
   const double at_low = product(gradient_, step_);
   const double at_high = slope(rows, 1.0);
@@ -201,7 +187,7 @@ double NewtonSolver::search(std::span<const SweepRow> rows) {
 }
 
 // The step of least energy from here; returns how fast it moves the fastest corner [m/s], or a negative number if there is none.
-double NewtonSolver::find_step(std::span<const SweepRow> rows, std::span<const Body> bodies) {
+double NewtonSolver::find_step(std::span<const ContactRow> rows, std::span<const Body> bodies) {
   try_impulses(rows, velocity_);
   gradient(rows, velocity_, gradient_);
   assemble(rows);
@@ -218,11 +204,11 @@ double NewtonSolver::find_step(std::span<const SweepRow> rows, std::span<const B
 }
 
 // Sets the limits of friction by the normal impulses found; returns whether some friction was beyond its own.
-bool NewtonSolver::limit_friction(std::span<const SweepRow> rows, double tolerance) {
+bool NewtonSolver::limit_friction(std::span<const ContactRow> rows, double tolerance) {
   try_impulses(rows, velocity_);
   bool beyond = false;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const SweepRow& row = rows[k];
+    const ContactRow& row = rows[k];
     RowPart& part = parts_[k];
     const double s = part.s, t = part.t;
     part.radius = row.friction * (row.base + part.n);
@@ -231,8 +217,9 @@ bool NewtonSolver::limit_friction(std::span<const SweepRow> rows, double toleran
   return beyond;
 }
 
-bool NewtonSolver::improve(std::span<SweepRow> rows, std::span<Body> bodies, const BodyOrder& order, const Effort& effort) {
-  begin(rows, bodies, order, effort.penalty);
+bool NewtonSolver::improve(std::span<ContactRow> rows, std::span<Velocity> velocity, std::span<const Body> bodies, const BodyOrder& order,
+                           const Effort& effort) {
+  begin(rows, velocity, bodies, order, effort.penalty);
   bool settled = false;
   int rounds = 0;
   for (int i = 0; i < kNewtonSteps && !settled; ++i) {
@@ -249,12 +236,10 @@ bool NewtonSolver::improve(std::span<SweepRow> rows, std::span<Body> bodies, con
   if (!settled) return false;
   try_impulses(rows, velocity_);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    SweepRow& row = rows[i];
+    ContactRow& row = rows[i];
     const RowPart& part = parts_[i];
-    apply(bodies, row, part.n - row.n, part.s - row.s, part.t - row.t);
-    row.n = part.n;
-    row.s = part.s;
-    row.t = part.t;
+    apply(row, {part.n - row.impulse[0], part.s - row.impulse[1], part.t - row.impulse[2]}, velocity);
+    row.impulse = {part.n, part.s, part.t};
   }
   return true;
 }

@@ -7,7 +7,7 @@
 
 #include "model/rigid/block_cholesky.h"
 #include "model/rigid/body_order.h"
-#include "model/rigid/sweep_row.h"
+#include "model/rigid/contact_row.h"
 
 namespace topple::rigid {
 
@@ -24,24 +24,25 @@ class NewtonSolver {
     double tolerance = 0.0;  ///< [m/s]
   };
   /// False, and nothing has changed, where no minimum was found: from farther off the penalties must be lower.
-  bool improve(std::span<SweepRow> rows, std::span<Body> bodies, const BodyOrder& order, const Effort& effort);
+  bool improve(std::span<ContactRow> rows, std::span<Velocity> velocity, std::span<const Body> bodies, const BodyOrder& order,
+               const Effort& effort);
 
  private:
   struct RowPart {
-    std::array<double, 18> a{}, b{};          // 3 x 6: how velocities of either brick move the point along normal, along, across
     double n = 0.0, s = 0.0, t = 0.0;         // trial impulses [N s]
     double penalty_n = 0.0, penalty_t = 0.0;  // impulse per velocity [kg]
     double radius = 0.0;                      // of the friction disk [N s]
     std::array<double, 4> stiffness{};        // of normal; along, both, across
   };
-  void begin(std::span<const SweepRow> rows, std::span<const Body> bodies, const BodyOrder& order, double penalty);
-  double find_step(std::span<const SweepRow> rows, std::span<const Body> bodies);
-  bool limit_friction(std::span<const SweepRow> rows, double tolerance);
-  void try_impulses(std::span<const SweepRow> rows, std::span<const double> velocity);
-  void gradient(std::span<const SweepRow> rows, std::span<const double> velocity, std::span<double> out) const;
-  void assemble(std::span<const SweepRow> rows);
-  double slope(std::span<const SweepRow> rows, double share);
-  double search(std::span<const SweepRow> rows);
+  void begin(std::span<const ContactRow> rows, std::span<const Velocity> velocity, std::span<const Body> bodies, const BodyOrder& order,
+             double penalty);
+  double find_step(std::span<const ContactRow> rows, std::span<const Body> bodies);
+  bool limit_friction(std::span<const ContactRow> rows, double tolerance);
+  void try_impulses(std::span<const ContactRow> rows, std::span<const double> velocity);
+  void gradient(std::span<const ContactRow> rows, std::span<const double> velocity, std::span<double> out) const;
+  void assemble(std::span<const ContactRow> rows);
+  double slope(std::span<const ContactRow> rows, double share);
+  double search(std::span<const ContactRow> rows);
 
   const BodyOrder* order_ = nullptr;
   std::vector<std::array<double, 10>> mass_;  // Of each number: mass, then the inertia's upper triangle by rows.

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "base/trigonometry.h"
-#include "model/rigid/chain_solver.h"
-#include "model/rigid/impulse_solver.h"
+#include "model/rigid/contact_solver.h"
 #include "model/rigid/touch.h"
 #include "model/rigid/wave.h"
 
@@ -85,13 +84,13 @@ class Front final : public Wave {
   void set_bias(double time);
   void kick(double time);
   void slow_ball(std::size_t place, double time);
-  void solve_contacts(std::span<const Twist> guess);
-  void plan(double time, bool with_blow);
-  void solve_half_a_kick(double time);
+  void solve_contacts(std::span<const Twist> guess, Effort effort);
+  void plan(double time, Effort effort, bool with_blow);
+  void solve_half_a_kick(double time, Effort effort);
   static Twist after_the_blow(const Member& member, double time);
   bool bends_otherwise(double time);
   void leap(double time);
-  void remember_impulses(double time, ContactState PointMemory::* states);
+  void remember_impulses(double time, ContactState PointMemory::* states, bool with_blow = false);
   Body body_at(std::size_t place, double time, double whole) const;
   void find_next(const std::vector<Body>& bodies, Touch& touch) const;
   void find_now(Touch& touch) const;
@@ -128,8 +127,7 @@ class Front final : public Wave {
   std::vector<Body> bodies_;
   std::vector<Member> members_;
   std::vector<Touch> touches_;
-  std::vector<Body> unsolved_;  // The bodies before their contacts are solved.
-  std::vector<Body> ahead_;     // The bodies at the end of the part of the step that is tried.
+  std::vector<Body> ahead_;  // The bodies at the end of the part of the step that is tried.
   std::vector<ContactRow> rows_, compression_;
   std::vector<Vec3> bends_;  // Of each row: what the bend of its points' paths adds to their slip [m/s].
   std::vector<Twist> guess_, now_, free_;
@@ -144,8 +142,7 @@ class Front final : public Wave {
   double stride_ = 0.0;       // The step, or a part of it: how long drifts are [s].
   double planned_for_ = 0.0;  // The plan is good for a drift of this time [s]; 0: for none.
   Touch before_;
-  ChainSolver chain_solver_;
-  ImpulseSolver impulse_solver_;
+  ContactSolver solver_;
 };
 
 }  // namespace topple::rigid

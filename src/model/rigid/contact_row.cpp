@@ -1,0 +1,65 @@
+#include "model/rigid/contact_row.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace topple::rigid {
+
+namespace {
+
+// The heading of the first brick's own x axis, what it slides along, without its part along the normal.
+Vec3 tangent_of(const Vec3& normal, const Vec3& heading) {
+  const Vec3 flat = heading - dot(heading, normal) * normal;
+  const double length = norm(flat);
+  if (length > 1e-9) return (1.0 / length) * flat;
+  const Vec3 other = std::abs(normal.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
+  const Vec3 side = cross(normal, other);
+  return (1.0 / norm(side)) * cross(side, normal);
+}
+
+void couple(const Body& body, const Vec3& arm, const std::array<Vec3, 3>& directions, double sign, std::array<Velocity, 3>& of,
+            std::array<Velocity, 3>& gain) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 push = sign * directions[k];
+    const Vec3 twist = cross(arm, push);
+    of[k] = {push.x, push.y, push.z, twist.x, twist.y, twist.z};
+    const Vec3 speed = body.inverse_mass * push, spin = body.inverse_inertia * twist;
+    gain[k] = {speed.x, speed.y, speed.z, spin.x, spin.y, spin.z};
+  }
+}
+
+}  // namespace
+
+void set_frame(ContactRow& row, const Body& a, const Body* b) {
+  row.along = tangent_of(row.normal, column(a.axes, 0));
+  row.across = cross(row.normal, row.along);
+  const std::array<Vec3, 3> directions{row.normal, row.along, row.across};
+  couple(a, row.arm_a, directions, 1.0, row.of_a, row.gain_a);
+  if (b != nullptr) couple(*b, row.arm_b, directions, -1.0, row.of_b, row.gain_b);
+  const auto response = [&row, b](std::size_t to, std::size_t from) {
+    const double own = product_of(row.of_a[to], row.gain_a[from]);
+    return b == nullptr ? own : own + product_of(row.of_b[to], row.gain_b[from]);
+  };
+  row.k_nn = response(0, 0);
+  row.k_na = response(1, 0);
+  row.k_nc = response(2, 0);
+  row.k_aa = response(1, 1);
+  row.k_ac = response(2, 1);
+  row.k_cc = response(2, 2);
+  row.normal_mass = 1.0 / row.k_nn;
+  row.mass = 2.0 / (row.k_aa + row.k_cc);
+}
+
+void set_steps(ContactRow& row) {
+  row.give_normal = 1.0 / row.normal_stiffness;
+  row.give = 1.0 / row.tangent_stiffness;
+  row.step_normal = 1.0 / (row.k_nn + row.give_normal);
+  const double k_aa = row.k_aa + row.give, k_cc = row.k_cc + row.give;
+  const double inverse = 1.0 / (k_aa * k_cc - row.k_ac * row.k_ac);
+  row.step_aa = inverse * k_cc;
+  row.step_ac = inverse * row.k_ac;
+  row.step_cc = inverse * k_aa;
+  row.step_sliding = 1.0 / (std::max(k_aa, k_cc) + std::abs(row.k_ac));
+}
+
+}  // namespace topple::rigid
