@@ -1,5 +1,7 @@
 #include "model/rigid/contact_solver.h"
 
+#include <algorithm>
+
 namespace topple::rigid {
 
 namespace {
@@ -29,7 +31,8 @@ void ContactSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, st
     if (limits.effort == Effort::stacked) {
       if (!solve_stack(rows, guess, limits)) sweep_stack(rows, bodies, limits);
     } else if (!solve_wave(rows, limits)) {
-      if (sweep(rows, limits.sweeps, limits.tolerance) > limits.lost) sweep_stack(rows, bodies, limits);
+      const double change = sweep(rows, limits.sweeps, limits.tolerance);
+      if (change > limits.lost) find_back(rows, bodies, limits, change);
     }
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -68,18 +71,58 @@ bool ContactSolver::solve_stack(std::span<ContactRow> rows, std::span<const Twis
   return chain_.solve(rows, guess_, limits.tolerance, most, velocity_);
 }
 
-void ContactSolver::sweep_stack(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits) {
+double ContactSolver::sweep_stack(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits) {
   constexpr double kLeastPenalty = 1.0, kFirstPenalty = 1e4, kMostPenalty = 1e5;
   NewtonSolver::Effort effort{kFirstPenalty, limits.tolerance};
   sweeps_.begin(rows, free_);
+  double change = 0.0;
   for (int sweeps = 0; sweeps < limits.sweeps; ++sweeps) {
-    if (sweeps_.run(rows, 1, limits.tolerance) <= limits.tolerance) break;
+    change = sweeps_.run(rows, 1, limits.tolerance);
+    if (change <= limits.tolerance) break;
     if (sweeps < kSweepsAlone) continue;
     const bool found = newton_.improve(rows, sweeps_.velocity, bodies, chain_.order(), effort);
     effort.penalty = found ? std::min(10.0 * effort.penalty, kMostPenalty) : std::max(0.1 * effort.penalty, kLeastPenalty);
   }
   Sweeps::tell_states(rows);
   velocity_ = sweeps_.velocity;
+  return change;
+}
+
+// Of two that have not settled the one that comes nearer; and neither may make energy.
+void ContactSolver::find_back(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits, double change) {
+  swept_.assign(rows.begin(), rows.end());
+  guess_ = velocity_;
+  if (sweep_stack(rows, bodies, limits) >= change) {
+    std::copy(swept_.begin(), swept_.end(), rows.begin());
+    velocity_ = guess_;
+  }
+  make_no_energy(rows, bodies);
+}
+
+// Of impulses that make energy so much acts that it is what it was without them. Along the way from the free velocities f to v that of
+// f + share (v - f) is before + share x slope + share^2 x change, with `change` that of the difference alone.
+void ContactSolver::make_no_energy(std::span<ContactRow> rows, std::span<const Body> bodies) {
+  double before = 0.0, after = 0.0, change = 0.0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].inverse_mass == 0.0) continue;
+    const auto energy = [&](const Velocity& v) {
+      Body body = bodies[i];
+      body.velocity = {v[0], v[1], v[2]};
+      body.angular_velocity = {v[3], v[4], v[5]};
+      return kinetic_energy(body);
+    };
+    Velocity difference = velocity_[i];
+    for (std::size_t k = 0; k < 6; ++k) difference[k] -= free_[i][k];
+    before += energy(free_[i]);
+    after += energy(velocity_[i]);
+    change += energy(difference);
+  }
+  if (after <= before) return;
+  const double share = std::max((change - after + before) / change, 0.0);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t k = 0; k < 6; ++k) velocity_[i][k] = free_[i][k] + share * (velocity_[i][k] - free_[i][k]);
+  }
+  for (ContactRow& row : rows) row.impulse = {share * row.impulse[0], share * row.impulse[1], share * row.impulse[2]};
 }
 
 }  // namespace topple::rigid

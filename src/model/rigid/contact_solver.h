@@ -44,9 +44,12 @@ class ContactSolver {
   bool solve_quickly(std::span<ContactRow> rows, const SolveLimits& limits);
   bool solve_wave(std::span<ContactRow> rows, const SolveLimits& limits);
   bool solve_stack(std::span<ContactRow> rows, std::span<const Twist> guess, const SolveLimits& limits);
-  void sweep_stack(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits);
+  double sweep_stack(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits);
+  void find_back(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits, double change);
+  void make_no_energy(std::span<ContactRow> rows, std::span<const Body> bodies);
 
   std::vector<Velocity> free_, velocity_, guess_;
+  std::vector<ContactRow> swept_;
   ChainSolver chain_;
   Sweeps sweeps_;
   NewtonSolver newton_;
