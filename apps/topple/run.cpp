@@ -20,14 +20,16 @@ class GrowingFile {
  public:
   explicit GrowingFile(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Writes what was finished, a few times a second; false once writing failed.
+  /// Writes what was finished, a few times a second, and lets the memory of it go; false once writing failed.
   bool grow(const Recording& recording) {
     const auto now = std::chrono::steady_clock::now();
     if (path_.empty() || now < next_) {
       return true;
     }
     next_ = now + std::chrono::milliseconds(250);
-    return open(recording) && keep(file_->append());
+    if (!open(recording) || !keep(file_->append())) return false;
+    file_->let_go();
+    return true;
   }
 
   bool finish(const Recording& recording) {

@@ -25,6 +25,7 @@ class RecordingFile {
   RecordingFile(RecordingFile&&) noexcept;
   RecordingFile& operator=(RecordingFile&&) noexcept;
   Result<void> append();  ///< What was finished since the last call.
+  void let_go();          ///< RecordingWriter::let_go(): of what is on disk.
   Result<void> finish();
 
  private:

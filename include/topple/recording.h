@@ -90,6 +90,8 @@ class Recording {
   Track track(std::int64_t index) const;                         ///< In the order in which they were finished.
   void tracks_of(BrickId brick, std::vector<Track>& out) const;  ///< Of one brick, in the order of time.
   BrickState at(BrickId brick, double time) const;  ///< Any brick at any time: before its tracks it stands, after them it rests.
+  /// Its tilt where it rests after all, as HingedState has it; not a number if it never moved, stands again or moves to the end [rad].
+  double rest_angle(BrickId brick) const;
   std::int64_t event_count() const;
   Event event(std::int64_t index) const;         ///< In the order of time.
   std::span<const EnergySample> energy() const;  ///< Thinned evenly to at most 16,384 samples.
@@ -136,9 +138,12 @@ class RecordingWriter {
   std::vector<std::uint8_t> begin();  ///< Magic, recipe, scene, bricks.
   std::vector<std::uint8_t> more();   ///< Of what was finished since a few megabytes; call it until it gives nothing.
   std::vector<std::uint8_t> end();    ///< The rest, energy, hashes, how it ended.
+  /// Of the free tracks that it has given out the recording keeps from now on where they end, a knot each, and no more: enough for a
+  /// summary, and the memory of a long run does not grow with its motion.
+  void let_go();
 
  private:
-  const Recording::Store* store_;
+  Recording::Store* store_;
   std::int64_t tracks_ = 0;
   std::int64_t events_ = 0;
 };

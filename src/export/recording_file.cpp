@@ -36,6 +36,8 @@ Result<void> RecordingFile::append() {
   }
 }
 
+void RecordingFile::let_go() { state_->writer.let_go(); }
+
 Result<void> RecordingFile::finish() {
   if (auto appended = append(); !appended) return appended;
   if (auto ended = state_->file.write(state_->writer.end()); !ended) return ended;

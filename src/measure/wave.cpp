@@ -14,13 +14,14 @@ constexpr std::size_t kFewest = 5;  // Fewer bricks have no 20 % and 80 % to spe
 // Who struck each brick first; a pushed brick is a beginning, whoever strikes it later.
 struct Strikes {
   std::vector<BrickId> by;
-  BrickId last = kNoBrick;  // The last brick that the wave reached.
+  std::vector<double> arrival;  // When the wave reached each brick last; not a number where it did not [s].
+  BrickId last = kNoBrick;      // The last brick that the wave reached.
 };
 
 Strikes strikes_of(const Recording& recording) {
   constexpr BrickId kUnknown = -2;
   const auto bricks = static_cast<std::size_t>(recording.layout().brick_count());
-  Strikes strikes{std::vector<BrickId>(bricks, kUnknown), kNoBrick};
+  Strikes strikes{std::vector<BrickId>(bricks, kUnknown), std::vector<double>(bricks, kNever), kNoBrick};
   for (std::int64_t i = 0; i < recording.event_count(); ++i) {
     const Event event = recording.event(i);
     BrickId& by = strikes.by[static_cast<std::size_t>(event.brick)];
@@ -29,6 +30,7 @@ Strikes strikes_of(const Recording& recording) {
     if (event.kind == EventKind::arrived) {
       if (by == kUnknown) by = kNoBrick;
       strikes.last = event.brick;
+      strikes.arrival[static_cast<std::size_t>(event.brick)] = event.time;
     }
   }
   return strikes;
@@ -53,18 +55,6 @@ std::vector<double> distances(const Layout& layout, std::span<const BrickId> tru
   return distance;
 }
 
-std::vector<double> arrivals(const Recording& recording, std::span<const BrickId> trunk) {
-  std::vector<std::int32_t> place(static_cast<std::size_t>(recording.layout().brick_count()), -1);
-  for (std::size_t i = 0; i < trunk.size(); ++i) place[static_cast<std::size_t>(trunk[i])] = static_cast<std::int32_t>(i);
-  std::vector<double> arrival(trunk.size(), kNever);
-  for (std::int64_t i = 0; i < recording.event_count(); ++i) {
-    const Event event = recording.event(i);
-    const std::int32_t index = place[static_cast<std::size_t>(event.brick)];
-    if (event.kind == EventKind::arrived && index >= 0) arrival[static_cast<std::size_t>(index)] = event.time;
-  }
-  return arrival;
-}
-
 double speed_between(const Wave& wave, std::size_t from, std::size_t to) {
   const double time = wave.arrival[to] - wave.arrival[from];
   return time > 0.0 ? (wave.distance[to] - wave.distance[from]) / time : kNever;
@@ -78,9 +68,11 @@ std::size_t at_fraction(std::size_t count, double fraction) {
 
 Wave measure_wave(const Recording& recording) {
   Wave wave;
-  wave.bricks = trunk_of(strikes_of(recording));
+  const Strikes strikes = strikes_of(recording);
+  wave.bricks = trunk_of(strikes);
   wave.distance = distances(recording.layout(), wave.bricks);
-  wave.arrival = arrivals(recording, wave.bricks);
+  wave.arrival.reserve(wave.bricks.size());
+  for (const BrickId brick : wave.bricks) wave.arrival.push_back(strikes.arrival[static_cast<std::size_t>(brick)]);
   const std::size_t count = wave.bricks.size();
   if (count >= kFewest) wave.front_speed = speed_between(wave, at_fraction(count, 0.2), at_fraction(count, 0.8));
   return wave;
@@ -93,19 +85,23 @@ double Wave::local_speed(std::size_t index, std::size_t window) const {
   return speed_between(*this, from, to);
 }
 
-// A track ends in single precision, perhaps a little after the last step.
-constexpr double kAfterAll = std::numeric_limits<double>::infinity();
-
 RunSummary summarize(const Recording& recording) {
   const Layout& layout = recording.layout();
   RunSummary summary;
   summary.bricks = layout.brick_count();
   summary.duration = recording.duration();
+  // Bricks of one kind that stand alike have one tip angle, and mostly follow each other.
+  std::uint16_t kind = 0;
+  Stance stance = Stance::standing;
+  double tip = kNever;
   for (BrickId brick = 0; brick < layout.brick_count(); ++brick) {
-    const BrickState state = recording.at(brick, kAfterAll);
-    if (state.phase != Phase::resting) continue;
-    const Extents size = extents(layout.kind_of(brick), layout.bricks[static_cast<std::size_t>(brick)].stance);
-    if (std::abs(state.hinge.angle) > tip_angle(size)) ++summary.fallen;
+    const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
+    if (tip != tip || put.kind != kind || put.stance != stance) {
+      kind = put.kind;
+      stance = put.stance;
+      tip = tip_angle(extents(layout.kind_of(brick), stance));
+    }
+    if (std::abs(recording.rest_angle(brick)) > tip) ++summary.fallen;
   }
   summary.standing = summary.bricks - summary.fallen;
   summary.front_speed = measure_wave(recording).front_speed;

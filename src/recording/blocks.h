@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,20 +41,39 @@ class Runs {
   const T* append(std::span<const T> run) {
     if (blocks_.empty() || capacity_ - used_ < run.size()) {
       capacity_ = std::max(kBlock, run.size());
-      blocks_.push_back(std::make_unique_for_overwrite<T[]>(capacity_));
+      blocks_.push_back({std::make_unique_for_overwrite<T[]>(capacity_), capacity_});
       total_ += capacity_;
       used_ = 0;
     }
-    T* place = blocks_.back().get() + used_;
+    T* place = blocks_.back().items.get() + used_;
     std::copy(run.begin(), run.end(), place);
     used_ += run.size();
     return place;
   }
-  std::size_t bytes() const { return total_ * sizeof(T) + blocks_.size() * sizeof(void*); }
+  std::size_t bytes() const { return total_ * sizeof(T) + blocks_.size() * sizeof(Block); }
+
+  /// Gives back the memory of runs that were appended before the one at `place`; null: of all. As far as whole blocks go.
+  void drop_before(const T* place) {
+    for (; gone_ < blocks_.size(); ++gone_) {
+      Block& block = blocks_[gone_];
+      const bool last = gone_ + 1 == blocks_.size();
+      if (last || (place != nullptr && !std::less<const T*>{}(place, block.items.get()) &&
+                   std::less<const T*>{}(place, block.items.get() + block.size))) {
+        return;
+      }
+      total_ -= block.size;
+      block = {};
+    }
+  }
 
  private:
   static constexpr std::size_t kBlock = 65536;
-  std::vector<std::unique_ptr<T[]>> blocks_;
+  struct Block {
+    std::unique_ptr<T[]> items;
+    std::size_t size = 0;
+  };
+  std::vector<Block> blocks_;
+  std::size_t gone_ = 0;  // So many blocks are given back.
   std::size_t capacity_ = 0;
   std::size_t used_ = 0;
   std::size_t total_ = 0;

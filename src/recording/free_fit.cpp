@@ -174,7 +174,7 @@ void FreeFit::finish_piece() {
 void FreeFit::store_finished(TrackStore& out) {
   std::size_t from = 0;
   for (const Finished& piece : finished_) {
-    out.add_code(brick_, piece.start, std::span(code_).subspan(from, piece.bytes));
+    out.add_free_code(brick_, piece.start, std::span(code_).subspan(from, piece.bytes));
     from += piece.bytes;
   }
   finished_.clear();

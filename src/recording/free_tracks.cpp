@@ -43,8 +43,7 @@ FreeFit& FreeTracks::open(BrickId brick, double start, const Layout& layout, dou
   FreeKnot first = put_down(put);
   const std::int32_t before = out.last_of(brick);
   if (before != TrackStore::kNone) {
-    const Track last = out.track(static_cast<std::size_t>(before));
-    if (!last.free.empty()) first = last.free.back();
+    if (const auto last = out.last_free_knot(before)) first = *last;
   }
   const BrickKind& kind = layout.kind_of(brick);
   const double diagonal = std::sqrt(kind.height * kind.height + kind.width * kind.width + kind.thickness * kind.thickness);

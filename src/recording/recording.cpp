@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/trigonometry.h"
 #include "recording/hermite.h"
@@ -125,6 +126,16 @@ void Recording::tracks_of(BrickId brick, std::vector<Track>& out) const {
     out.push_back(tracks.track(static_cast<std::size_t>(piece)));
   }
   std::reverse(out.begin(), out.end());
+}
+
+double Recording::rest_angle(BrickId brick) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const TrackStore& tracks = store_->tracks;
+  const std::int32_t piece = tracks.last_of(brick);
+  if (piece == TrackStore::kNone) return kNone;
+  if (const auto last = tracks.last_knot(piece)) return phase_after(*last) == Phase::resting ? double{last->angle} : kNone;
+  const BrickState state = at(brick, std::numeric_limits<double>::infinity());
+  return state.phase == Phase::resting ? state.hinge.angle : kNone;
 }
 
 BrickState Recording::at(BrickId brick, double time) const {

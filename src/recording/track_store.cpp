@@ -1,12 +1,14 @@
 #include "recording/track_store.h"
 
+#include <algorithm>
+
 #include "recording/knot_code.h"
 
 namespace topple {
 
-void TrackStore::add_code(BrickId brick, double start, std::span<const std::uint8_t> code) {
+void TrackStore::add_piece(BrickId brick, double start, const std::uint8_t* code) {
   std::int32_t& last = last_[static_cast<std::size_t>(brick)];
-  pieces_.push_back({start, codes_.append(code), brick, last});
+  pieces_.push_back({start, code, brick, last});
   last = static_cast<std::int32_t>(pieces_.size()) - 1;
 }
 
@@ -16,24 +18,37 @@ void TrackStore::add_echo(BrickId brick, BrickId like, double start, double like
   for (std::size_t i = echoed_.size(); i-- > 0;) add_same(brick, start + (start_of(echoed_[i]) - like_start), echoed_[i]);
 }
 
-void TrackStore::add_same(BrickId brick, double start, std::int32_t piece) {
-  std::int32_t& last = last_[static_cast<std::size_t>(brick)];
-  pieces_.push_back({start, code_of(piece), brick, last});
-  last = static_cast<std::int32_t>(pieces_.size()) - 1;
-}
+void TrackStore::add_same(BrickId brick, double start, std::int32_t piece) { add_piece(brick, start, code_of(piece)); }
 
 void TrackStore::add(BrickId brick, double start, std::span<const HingedKnot> knots) {
   if (knots.empty()) return;
   code_.clear();
   encode(knots, code_);
-  add_code(brick, start, code_);
+  add_piece(brick, start, codes_.append(code_));
 }
 
 void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knots) {
   if (knots.empty()) return;
   code_.clear();
   encode(knots, code_);
-  add_code(brick, start, code_);
+  add_free_code(brick, start, code_);
+}
+
+void TrackStore::add_free_code(BrickId brick, double start, std::span<const std::uint8_t> code) {
+  add_piece(brick, start, free_codes_.append(code));
+}
+
+void TrackStore::let_go(std::size_t pieces) {
+  for (; let_go_ < std::min(pieces, pieces_.size()); ++let_go_) {
+    const auto last = last_free_knot(static_cast<std::int32_t>(let_go_));
+    if (!last) continue;
+    code_.clear();
+    encode(std::span(&*last, 1), code_);
+    pieces_[let_go_].code = free_ends_.append(code_);
+  }
+  std::size_t next = let_go_;
+  while (next < pieces_.size() && !last_free_knot(static_cast<std::int32_t>(next))) ++next;
+  free_codes_.drop_before(next < pieces_.size() ? pieces_[next].code : nullptr);
 }
 
 std::optional<HingedKnot> TrackStore::last_knot(std::int32_t index) const {
@@ -65,7 +80,9 @@ TrackStore::Count TrackStore::read(std::int32_t index, std::vector<HingedKnot>& 
   return {hinged.size() - before.hinged, free.size() - before.free};
 }
 
-std::size_t TrackStore::bytes() const { return pieces_.bytes() + codes_.bytes() + last_.capacity() * sizeof(last_[0]); }
+std::size_t TrackStore::bytes() const {
+  return pieces_.bytes() + codes_.bytes() + free_codes_.bytes() + free_ends_.bytes() + last_.capacity() * sizeof(last_[0]);
+}
 
 double end_of(const Track& track) {
   if (!track.hinged.empty()) return track.start + double{track.hinged.back().time};

@@ -16,8 +16,11 @@ class TrackStore {
   void add(BrickId brick, double start, std::span<const FreeKnot> knots);
   /// The brick moves as `like` did from `like_start` on, and begins at `start`: the same codes are kept for both.
   void add_echo(BrickId brick, BrickId like, double start, double like_start);
-  void add_same(BrickId brick, double start, std::int32_t piece);                  ///< With the knots of another piece, kept once.
-  void add_code(BrickId brick, double start, std::span<const std::uint8_t> code);  ///< Of encode().
+  void add_same(BrickId brick, double start, std::int32_t piece);  ///< With the knots of another piece, kept once.
+
+  void add_free_code(BrickId brick, double start, std::span<const std::uint8_t> code);  ///< Of encode().
+  /// Keeps of the free ones among the first `pieces` their last knots alone: from then on each is a track of one knot.
+  void let_go(std::size_t pieces);
 
   std::size_t size() const { return pieces_.size(); }
   Track track(std::size_t index) const;
@@ -43,6 +46,8 @@ class TrackStore {
   std::size_t bytes() const;
 
  private:
+  void add_piece(BrickId brick, double start, const std::uint8_t* code);
+
   struct Piece {
     double start;
     const std::uint8_t* code;
@@ -51,7 +56,10 @@ class TrackStore {
   };
 
   Blocks<Piece> pieces_;
-  Runs<std::uint8_t> codes_;
+  Runs<std::uint8_t> codes_;       // Of hinged pieces.
+  Runs<std::uint8_t> free_codes_;  // Of free ones, in the order of the pieces,
+  Runs<std::uint8_t> free_ends_;   // and of those that were let go.
+  std::size_t let_go_ = 0;         // So many pieces have been looked at.
   std::vector<std::int32_t> last_;
   std::vector<std::uint8_t> code_;    // Of the piece that is being added.
   std::vector<std::int32_t> echoed_;  // Scratch.

@@ -301,6 +301,8 @@ std::vector<std::uint8_t> RecordingWriter::more() {
   return bytes;
 }
 
+void RecordingWriter::let_go() { store_->tracks.let_go(static_cast<std::size_t>(tracks_)); }
+
 std::vector<std::uint8_t> RecordingWriter::end() {
   std::vector<std::uint8_t> bytes;
   for (std::vector<std::uint8_t> rest = more(); !rest.empty(); rest = more()) bytes.insert(bytes.end(), rest.begin(), rest.end());

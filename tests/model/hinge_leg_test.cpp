@@ -102,3 +102,32 @@ TEST_CASE("a_new_front_sees_the_train_as_a_walk_through_it_does") {
   CHECK(view.torque == doctest::Approx(walked.torque).epsilon(1e-12));
   CHECK(view.coupling == doctest::Approx(walked.coupling).epsilon(1e-12));
 }
+
+TEST_CASE("where_a_lean_turns_over_its_edge_is_at_the_end_of_its_way") {
+  Train train = make_train(6);
+  for (std::size_t k = 1; k < 6; ++k) train.at(k).pitch *= 1.0 + 0.03 * static_cast<double>(k % 3);
+  std::vector<double> edges(6);
+  for (std::size_t k = 1; k < 6; ++k) {
+    train.edges(train.turn_over_angle(k), edges);
+    CHECK(std::fabs(edges[k]) < 1e-15);
+  }
+}
+
+TEST_CASE("the_work_of_the_torques_is_their_integral_over_the_way") {
+  // Simpson's rule over 400 parts; the torque on the front is that of all bricks through their ratios.
+  const Train train = make_train(5);
+  const double end = arc_sine(16.5 / 48.0);
+  std::vector<TrainView> bricks;
+  const auto torque = [&](double angle) {
+    train.look(angle, 1.0, bricks);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 5; ++k) {
+      const TrainBrick& brick = train.at(k);
+      sum += bricks[k].ratio * (brick.torque_sin * bricks[k].sine + brick.torque_cos * bricks[k].cosine);
+    }
+    return sum;
+  };
+  double integral = 0.0;
+  for (int i = 0; i <= 400; ++i) integral += (i % 400 == 0 ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * torque(end * i / 400.0) * end / 1200.0;
+  CHECK(train.works(end).torques - train.works(0.0).torques == doctest::Approx(integral).epsilon(1e-9));
+}

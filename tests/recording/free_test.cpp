@@ -206,3 +206,52 @@ TEST_CASE("a recording of free bricks that is written and read again is the same
     CHECK(std::memcmp(a.free.data(), b.free.data(), a.free.size() * sizeof(FreeKnot)) == 0);
   }
 }
+
+TEST_CASE("a recording whose tracks are let go when they are written makes the same file, remembers where all end, and stays small") {
+  // Enough bricks for several blocks of codes.
+  constexpr BrickId kBricks = 2000;
+  Layout layout = row(kBricks);
+  const std::vector<Flight> eight = flights();
+  std::vector<Flight> all;
+  for (BrickId i = 0; i < kBricks; ++i) {
+    Flight flight = eight[static_cast<std::size_t>(i % 8)];
+    flight.brick = i;
+    const double later = 0.01 * (i / 8);
+    for (auto& part : flight.parts) part.start += later;
+    flight.end += later;
+    all.push_back(flight);
+  }
+  const auto run = [&](bool let_go, std::vector<std::uint8_t>& bytes) {
+    FreeScript script(layout, all);
+    Recording recording(layout, Recipe{"0.1.0", "scripted", kStep});
+    Recorder recorder(recording, {});
+    RecordingWriter writer(recording);
+    bytes = writer.begin();
+    const auto append = [&bytes](const std::vector<std::uint8_t>& piece) { bytes.insert(bytes.end(), piece.begin(), piece.end()); };
+    for (int step = 1; script.step().progress == Progress::running; ++step) {
+      recorder.take(script);
+      if (step % 700 != 0) continue;
+      for (auto piece = writer.more(); !piece.empty(); piece = writer.more()) append(piece);
+      if (let_go) writer.let_go();
+    }
+    recorder.finish({EndReason::at_rest, kNoBrick, script.step_count(), script.time(), 0, "at rest"});
+    append(writer.end());
+    if (let_go) writer.let_go();
+    return recording;
+  };
+  std::vector<std::uint8_t> kept_bytes, let_go_bytes;
+  const Recording kept = run(false, kept_bytes);
+  const Recording let_go = run(true, let_go_bytes);
+  CHECK(kept_bytes == let_go_bytes);
+  REQUIRE(let_go.track_count() == kept.track_count());
+  for (BrickId brick = 0; brick < kBricks; ++brick) {
+    const BrickState a = kept.at(brick, 1e6);
+    const BrickState b = let_go.at(brick, 1e6);
+    CHECK(a.phase == b.phase);
+    CHECK(a.pose.position == b.pose.position);
+    CHECK(a.pose.orientation.w == b.pose.orientation.w);
+    CHECK(std::isnan(kept.rest_angle(brick)) == std::isnan(let_go.rest_angle(brick)));
+  }
+  CHECK(let_go.track(0).free.size() == 1);
+  CHECK(kept.memory() - let_go.memory() > kept.memory() / 2);
+}

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/trigonometry.h"
-#include "model/hinge/lean.h"
+#include "model/hinge/root.h"
 
 namespace topple::hinge {
 
@@ -13,29 +13,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kForever = std::numeric_limits<double>::infinity();
-
-// A lean turns over once its edge is this close to the end of its way; a pure number, far above rounding.
-constexpr double kTurnOver = 1e-9;
-
-// Where f(x) = 0 between low and high, f(low) > 0 > f(high) or the other way round, by regula falsi with Illinois' halving.
-template <typename Function>
-double root(double low, double high, double at_low, double at_high, Function f) {
-  double x = high;
-  for (int round = 0; round < 50; ++round) {
-    x = high - at_high * (high - low) / (at_high - at_low);
-    const double at_x = f(x);
-    if (std::fabs(at_x) < 1e-13) break;
-    if ((at_x > 0.0) != (at_high > 0.0)) {
-      low = high;
-      at_low = at_high;
-    } else {
-      at_low *= 0.5;
-    }
-    high = x;
-    at_high = at_x;
-  }
-  return x;
-}
 
 // How high the top front edge of a brick is when it strikes the next [m].
 double hit_height(const TrainBrick& brick) {
@@ -159,7 +136,6 @@ void Chain::start_leg(Happenings& out) {
     if (goal_ == Goal::turn_over) leg_ = make_leg(train_, start, leg_goal());
   }
   find_arrivals();
-  states(began_);
 }
 
 double Chain::lean_angle(BrickId id, BrickId next) const {
@@ -190,30 +166,6 @@ void Chain::choose_goal() {
       goal_ = Goal::lean;
       goal_angle_ = lean_angle(front(), next);
     }
-  }
-}
-
-// Whether a lean turns over before the goal; if so, that is where the leg ends.
-void Chain::find_turn_over(double from) {
-  rates_.resize(train_.size());
-  train_.edges(goal_angle_, rates_);
-  for (std::size_t k = 1; k < train_.size(); ++k) {
-    const TrainBrick& brick = train_.at(k);
-    if (brick.on_heel == (direction_ > 0.0)) continue;
-    // One that goes past it by less than what a resting brick may still move is turned over at the end of the leg.
-    const double slack = 0.1 * scene_->rest_tolerance * brick.thickness_ahead;
-    if (direction_ * rates_[k] >= -slack) continue;
-    std::vector<double>& edges = edges_;
-    edges.resize(k + 1);
-    const auto edge = [&](double angle) {
-      train_.edges(angle, edges);
-      return edges[k];
-    };
-    const double at_from = edge(from);
-    if (direction_ * at_from <= 0.0) continue;
-    goal_angle_ = root(from, goal_angle_, at_from, edge(goal_angle_), edge);
-    goal_ = Goal::turn_over;
-    train_.edges(goal_angle_, rates_);
   }
 }
 
@@ -296,33 +248,6 @@ void Chain::restart(double rate) {
   state_.acceleration = view_.acceleration(rate);
 }
 
-// The front faces of bricks that come to lie flush with the rear faces ahead stop at their heels: an inelastic hit.
-void Chain::turn_over(Happenings& out) {
-  rates_.resize(train_.size());
-  train_.edges(state_.angle, rates_);
-  bool any = false;
-  for (std::size_t k = 1; k < train_.size(); ++k) {
-    if (train_.at(k).on_heel == (direction_ > 0.0) || direction_ * rates_[k] > kTurnOver) continue;
-    any = true;
-    train_.at(k).on_heel = direction_ > 0.0;
-  }
-  if (!any) return;
-  for (std::size_t k = 0; k < train_.size(); ++k) rates_[k] = before_[train_.size() - 1 - k].rate;
-  const double inertia = train_.place(state_.angle, direction_).inertia;
-  const double rate = train_.front_momentum(rates_, direction_) / inertia;
-  restart(direction_ * rate > 0.0 ? rate : 0.0);
-  add_kinks(out);
-  if (state_.rate == 0.0) {
-    begin_motion();
-    if (!moving_) return rest_all(false, kNoBrick, out);
-    remember_states();
-    restart(0.0);
-    add_kinks(out);
-  }
-  remember_states();
-  if (direction_ > 0.0 && retire(out) > 0) remember_states();
-}
-
 // The whole train strikes the next brick, which stands: simultaneous, perfectly inelastic [vanLeeuwen2010] eq. 30.
 void Chain::hit(Happenings& out) {
   const BrickId by = front();
@@ -357,10 +282,14 @@ void Chain::hit(Happenings& out) {
   look_for_repeat(out);
 }
 
-void Chain::add_strike(BrickId id, BrickId by, double impulse, Happenings& out) const {
+void Chain::add_strike(BrickId id, BrickId by, double impulse, Happenings& out) {
   const TrainBrick& behind = train_.at(1);
   const Brick& brick = scene_->layout->bricks[static_cast<std::size_t>(id)];
-  const SinCos heading = sin_cos(brick.heading);
+  if (brick.heading != scene_->last_heading) {
+    scene_->last_heading = brick.heading;
+    scene_->last_turn = sin_cos(brick.heading);
+  }
+  const SinCos heading = scene_->last_turn;
   const double back = 0.5 * scene_->kind_of(id).thickness;
   Event struck = event_at(state_.time, EventKind::struck, id, by);
   struck.impulse = impulse;
@@ -471,13 +400,10 @@ Energy Chain::energy() const {
   Energy energy;
   if (!moving_) return energy;
   const FrontState front = now();
-  std::vector<TrainView> bricks;
-  train_.look(front.angle, direction_, bricks);
-  for (std::size_t k = 0; k < train_.size(); ++k) {
-    const double rate = bricks[k].ratio * front.rate;
-    energy.potential += potential(train_.at(k), bricks[k].sine, bricks[k].cosine);
-    energy.kinetic += 0.5 * train_.at(k).inertia * rate * rate;
-  }
+  const Train::Works works = train_.works(front.angle);
+  energy.kinetic = 0.5 * works.motion * front.rate * front.rate;
+  energy.potential = -works.torques;
+  if (acting_ != 0 && index_of(forced_) < train_.size()) energy.potential += force_work(train_.angle_of(index_of(forced_), front.angle));
   return energy;
 }
 

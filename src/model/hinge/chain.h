@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/hash.h"
+#include "base/trigonometry.h"
 #include "model/hinge/leg.h"
 #include "model/hinge/links.h"
 #include "topple/model.h"
@@ -21,6 +22,8 @@ struct HingeScene {
   double slow_step = 0.0;       ///< Time step where a train is slow [s].
   /// Where each brick is: its angle where it rests [rad], 0 while it stands, kInTrain while it moves.
   std::vector<float> angles;
+  double last_heading = 0.0;  ///< Of the brick that was struck last [rad], with its sine and cosine: a row has one.
+  SinCos last_turn{0.0, 1.0};
 
   static constexpr float kInTrain = -1.0F;
   const BrickKind& kind_of(BrickId brick) const { return layout->kind_of(brick); }
@@ -119,19 +122,22 @@ class Chain {
   void wake(Happenings& out);
   void begin_motion();
   void add_work(Happenings& out);
+  double force_work(double angle) const;
 
   void start_leg(Happenings& out);
   void choose_goal();
   LegGoal leg_goal() const;
   double lean_angle(BrickId id, BrickId next) const;
   void find_turn_over(double from);
+  void find_edges();
+  double turn_over_angle(std::size_t k, double from);
   void find_arrivals();
   void emit_arrivals(double until, Happenings& out);
 
   void finish_leg(Happenings& out);
   void turn_over(Happenings& out);
   void hit(Happenings& out);
-  void add_strike(BrickId id, BrickId by, double impulse, Happenings& out) const;
+  void add_strike(BrickId id, BrickId by, double impulse, Happenings& out);
   void stand_up(Happenings& out);
   std::size_t retire(Happenings& out);
   void settle(const TrainBrick& brick, BrickId by, bool landed, Happenings& out);

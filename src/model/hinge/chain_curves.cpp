@@ -31,8 +31,9 @@ double slope(const HingedState& from, const HingedState& to, double span, double
 }  // namespace
 
 void Chain::states(std::vector<HingedState>& out) const {
-  out.clear();
-  for (std::size_t k = train_.size(); k-- > 0;) out.push_back(state_of(train_.at(k)));
+  const std::size_t size = train_.size();
+  out.resize(size);
+  for (std::size_t i = 0; i < size; ++i) out[i] = state_of(train_.at(size - 1 - i));
 }
 
 // Whether the quintics over the whole leg are close to the ways of all bricks, by their rates at two of the leg's nodes.
@@ -75,9 +76,10 @@ void Chain::add_points(Happenings& out) const {
 
 // Everything of the train may have jumped from before_, whose first `skipped` bricks have left it. What was not there before stood.
 void Chain::add_kinks(Happenings& out, std::size_t skipped) {
-  for (std::size_t i = 0; i < train_.size(); ++i) {
-    const TrainBrick& brick = train_.at(train_.size() - 1 - i);
-    out.tell({brick.id, state_.time, i + skipped < before_.size() ? before_[i + skipped] : HingedState{}, state_of(brick)});
+  states(began_);
+  for (std::size_t i = 0; i < began_.size(); ++i) {
+    const BrickId brick = train_.at(began_.size() - 1 - i).id;
+    out.tell({brick, state_.time, i + skipped < before_.size() ? before_[i + skipped] : HingedState{}, began_[i]});
   }
 }
 

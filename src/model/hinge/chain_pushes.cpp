@@ -103,12 +103,14 @@ void Chain::add_work(Happenings& out) {
   const std::size_t index = index_of(forced_);
   if (index == train_.size()) return;
   const TrainBrick& brick = train_.at(index);
-  const auto along = [&](double angle) {
-    const auto [s, c] = sin_cos(angle);
-    return force_moment_ * s + force_ * brick.thickness * (1.0 - c);
-  };
-  out.work += along(brick.angle) - along(worked_to_);
+  out.work += force_work(brick.angle) - force_work(worked_to_);
   worked_to_ = brick.angle;
+}
+
+// Of the forces that act, on their brick from upright to an angle [J].
+double Chain::force_work(double angle) const {
+  const auto [s, c] = sin_cos(angle);
+  return force_moment_ * s + force_ * scene_->kind_of(forced_).thickness * (1.0 - c);
 }
 
 void Chain::apply_blow(const Push& push, Happenings& out) {

@@ -64,9 +64,8 @@ void Chain::repeat_hit(Happenings& out) {
   state_.time = leg_start_ + leg_.end().time;
   leg_.count = 0;
   add_strike(id, by, repeat_.impulse, out);
-  TrainBrick rested = repeat_.rested;
-  rested.id = train_.at(size - 1).id;
-  settle(rested, train_.at(size - 2).id, true, out);
+  repeat_.rested.id = train_.at(size - 1).id;
+  settle(repeat_.rested, train_.at(size - 2).id, true, out);
   for (const Repeated& told : repeat_.told) {
     const BrickId brick = told.place == size ? id : train_.at(size - 1 - told.place).id;
     if (told.place < repeat_.open) {
@@ -83,8 +82,9 @@ void Chain::repeat_hit(Happenings& out) {
   repeat_.times[++repeat_.hits % repeat_.times.size()] = state_.time;
   if (repeat_.open > 0) {
     --repeat_.open;
-  } else {
-    out.echoes.push_back({rested.id, repeat_.like, repeat_.times[(repeat_.hits - size) % repeat_.times.size()], repeat_.like_start});
+  } else {  // Of the times one more is kept than there are bricks: the next is the oldest.
+    const double start = repeat_.times[(repeat_.hits + 1) % repeat_.times.size()];
+    out.echoes.push_back({repeat_.rested.id, repeat_.like, start, repeat_.like_start});
   }
 }
 

@@ -153,35 +153,42 @@ double energy_at(const std::array<FrontState, 5>& nodes, double fraction) {
   return energy;
 }
 
-// The quintic through angle, rate and acceleration of two nodes.
-FrontState between(const FrontState& a, const FrontState& b, double time) {
-  // Angle = sum of c_n x^n with x from 0 to 1; the last three fulfil angle, rate and acceleration at the end.
-  const double h = b.time - a.time;
-  const double x = h > 0.0 ? (time - a.time) / h : 0.0;
-  const double c1 = a.rate * h;
-  const double c2 = 0.5 * a.acceleration * h * h;
-  const double angle = b.angle - (a.angle + c1 + c2);
-  const double rate = b.rate * h - (c1 + 2.0 * c2);
-  const double bend = b.acceleration * h * h - 2.0 * c2;
-  const double c3 = 10.0 * angle - 4.0 * rate + 0.5 * bend;
-  const double c4 = -15.0 * angle + 7.0 * rate - bend;
-  const double c5 = 6.0 * angle - 3.0 * rate + 0.5 * bend;
-  FrontState state;
-  state.time = time;
-  state.angle = a.angle + x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * c5))));
-  if (h > 0.0) {
-    state.rate = (c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))) / h;
-    state.acceleration = (2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))) / (h * h);
+// The quintic through angle, rate and acceleration of two nodes: the sum of c_n x^n with x from 0 to 1 between them; the last three
+// coefficients fulfil angle, rate and acceleration at the end.
+struct Between {
+  Between(const FrontState& a, const FrontState& b) : start(a.time), span(b.time - a.time), c0(a.angle) {
+    c1 = a.rate * span;
+    c2 = 0.5 * a.acceleration * span * span;
+    const double angle = b.angle - (a.angle + c1 + c2);
+    const double rate = b.rate * span - (c1 + 2.0 * c2);
+    const double bend = b.acceleration * span * span - 2.0 * c2;
+    c3 = 10.0 * angle - 4.0 * rate + 0.5 * bend;
+    c4 = -15.0 * angle + 7.0 * rate - bend;
+    c5 = 6.0 * angle - 3.0 * rate + 0.5 * bend;
   }
-  return state;
-}
+  double at(double time) const { return span > 0.0 ? (time - start) / span : 0.0; }
+  double angle(double x) const { return c0 + x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * c5)))); }
+  double slope(double x) const { return c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5))); }
+  double bend(double x) const { return 2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5)); }
+  FrontState state(double time) const {
+    const double x = at(time);
+    FrontState state{.time = time, .angle = angle(x)};
+    if (span > 0.0) {
+      state.rate = slope(x) / span;
+      state.acceleration = bend(x) / (span * span);
+    }
+    return state;
+  }
+
+  double start, span, c0, c1, c2, c3, c4, c5;
+};
 
 }  // namespace
 
 FrontState Leg::at_time(double time) const {
   std::size_t i = 1;
   while (i + 1 < count && nodes[i].time < time) ++i;
-  FrontState state = between(nodes[i - 1], nodes[i], time);
+  FrontState state = Between(nodes[i - 1], nodes[i]).state(time);
   if (count == kMostNodes && end().angle != nodes[0].angle) {  // The rate that the energy gives is more exact than that of the angle.
     const double energy = energy_at(nodes, (state.angle - nodes[0].angle) / (end().angle - nodes[0].angle));
     if (energy > 0.0) state.rate = state.rate < 0.0 ? -std::sqrt(energy) : std::sqrt(energy);
@@ -197,10 +204,12 @@ double Leg::time_of(double angle) const {
   double high = nodes[i].time;
   const double span = nodes[i].angle - nodes[i - 1].angle;
   double time = span == 0.0 ? low : low + (high - low) * (angle - nodes[i - 1].angle) / span;
+  const Between way(nodes[i - 1], nodes[i]);
   for (int round = 0; round < 60 && low < high; ++round) {  // Newton, kept between what is known to be before and after.
-    const FrontState state = between(nodes[i - 1], nodes[i], time);
-    (sign * (state.angle - angle) < 0.0 ? low : high) = time;
-    double better = time - (state.angle - angle) / state.rate;
+    const double x = way.at(time);
+    const double miss = way.angle(x) - angle;
+    (sign * miss < 0.0 ? low : high) = time;
+    double better = time - miss * way.span / way.slope(x);
     if (!(better > low && better < high)) better = 0.5 * (low + high);
     const bool settled = std::fabs(better - time) <= kSettled * (nodes[i].time - nodes[i - 1].time);
     time = better;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/trigonometry.h"
 #include "model/hinge/lean.h"
@@ -131,6 +132,15 @@ FrontView Train::look(double front_angle, double direction, std::vector<TrainVie
               });
 }
 
+Train::Works Train::works(double front_angle) const {
+  Works works;
+  walk(size(), &bricks_.back(), front_angle, 1.0, 0.0, [&](const TrainBrick& brick, double s, double c, double ratio, double, double) {
+    works.motion += brick.inertia * ratio * ratio;
+    works.torques += brick.torque_sin * (1.0 - c) + brick.torque_cos * s;
+  });
+  return works;
+}
+
 double Train::angle_of(std::size_t index, double front_angle) const {
   if (index == 0) return front_angle;
   double sine = 0.0;
@@ -149,6 +159,30 @@ void Train::edges(double front_angle, std::span<double> out) const {
     out[index++] = brick.pitch * cos_ahead - brick.thickness_ahead;
     cos_ahead = c;
   });
+}
+
+void Train::goal_edges(std::span<double> out) const {
+  for (std::size_t k = 1; k < out.size(); ++k) out[k] = at(k).goal_lean;
+}
+
+// It turns over where the brick ahead has turned to the arc cosine of t / p, whatever it does itself; from there forward to the front.
+// The lean of brick b on brick f is sin b cos f - cos b sin f = p cos f - t, solved for f: with A = p - sin b, B = cos b it is
+// A cos f + B sin f = t, and of the two angles the smaller one.
+double Train::turn_over_angle(std::size_t index) const {
+  double c = at(index).thickness_ahead / at(index).pitch;
+  double s = std::sqrt(1.0 - c * c);
+  for (std::size_t k = index - 1; k > 0; --k) {
+    const TrainBrick& brick = at(k);
+    if (brick.on_heel) return std::numeric_limits<double>::quiet_NaN();
+    const double a = brick.pitch - s;
+    const double b = c;
+    const double t = brick.thickness_ahead;
+    const double square = a * a + b * b;
+    const double root = std::sqrt(square - t * t);
+    c = (a * t + b * root) / square;
+    s = (b * t - a * root) / square;
+  }
+  return arc_tangent(s, c);
 }
 
 double Train::front_momentum(std::span<const double> rates, double direction) const {

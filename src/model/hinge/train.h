@@ -94,12 +94,25 @@ class Train {
   /// Puts the train where the last sweep ended.
   void place_at_goal(double front_angle);
 
+  /// Energy of the train's motion where its front is, over half the square of the front's rate [kg m^2], and the work of its torques
+  /// from upright to there [J].
+  struct Works {
+    double motion = 0.0;
+    double torques = 0.0;
+  };
+  Works works(double front_angle) const;
+
   /// The angle of brick `index` at an angle of the front [rad].
   double angle_of(std::size_t index, double front_angle) const;
 
   /// How far each brick is from turning over from its edge to its heel, (pitch cos(angle ahead) - thickness ahead) / height, from the
   /// front (which has none) to brick out.size() - 1: > 0 where it leans on its edge, < 0 on its heel.
   void edges(double front_angle, std::span<double> out) const;
+  /// The same where the last sweep ended, for bricks that lean on their edge.
+  void goal_edges(std::span<double> out) const;
+  /// The front angle at which the lean of brick `index` turns over from its edge, where none before it is on its heel; otherwise not a
+  /// number [rad].
+  double turn_over_angle(std::size_t index) const;
 
   /// Momentum that an impact keeps, taken about the front brick [kg m^2/s]: the rates are given, the arms are those of where the
   /// train was placed last.
