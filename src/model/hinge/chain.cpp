@@ -333,11 +333,15 @@ void Chain::stand_up(Happenings& out) {
 }
 
 void Chain::settle(const TrainBrick& brick, BrickId by, bool landed, Happenings& out) {
+  const SinCos turned = sin_cos(brick.angle);
+  settle_with(potential(brick, turned.sin, turned.cos), brick, by, landed, out);
+}
+
+void Chain::settle_with(double energy, const TrainBrick& brick, BrickId by, bool landed, Happenings& out) {
   if (landed) out.events.push_back(event_at(state_.time, EventKind::landed, brick.id, by));
   out.events.push_back(event_at(state_.time, EventKind::rested, brick.id, kNoBrick));
   out.stopped.push_back({brick.id, brick.angle == 0.0 ? Phase::standing : Phase::resting, {brick.angle, 0.0, 0.0}});
-  const SinCos turned = sin_cos(brick.angle);
-  out.settled += potential(brick, turned.sin, turned.cos);
+  out.settled += energy;
   scene_->angle_of(brick.id) = static_cast<float>(brick.angle);
 }
 

@@ -98,6 +98,7 @@ class Chain {
     std::size_t legs = 0;   // Since the last hit.
     std::size_t kinks = 0;  // That were told in this step before this leg ended.
     TrainBrick rested;      // The last brick that left the train.
+    double settled = 0.0;   // Its potential energy there [J].
     double impulse = 0.0;   // Of the hit [N s].
     std::vector<Repeated> told;
     std::vector<bool> arrived;  // By place from the front, after a hit.
@@ -141,6 +142,7 @@ class Chain {
   void stand_up(Happenings& out);
   std::size_t retire(Happenings& out);
   void settle(const TrainBrick& brick, BrickId by, bool landed, Happenings& out);
+  void settle_with(double energy, const TrainBrick& brick, BrickId by, bool landed, Happenings& out);
   void rest_all(bool front_landed, BrickId by, Happenings& out);
   void rest_from_before(bool front_landed, BrickId by, Happenings& out);
   bool missed_next(BrickId id) const;

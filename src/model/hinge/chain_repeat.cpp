@@ -25,6 +25,8 @@ void Chain::look_for_repeat(Happenings& out) {
 void Chain::begin_repeat(const Happenings& out) {
   const std::size_t size = train_.size();
   repeat_.on = true;
+  const SinCos turned = sin_cos(repeat_.rested.angle);
+  repeat_.settled = potential(repeat_.rested, turned.sin, turned.cos);
   repeat_.train.clear();
   repeat_.told.clear();
   for (std::size_t i = repeat_.kinks; i < out.kinks.size(); ++i) {
@@ -65,7 +67,7 @@ void Chain::repeat_hit(Happenings& out) {
   leg_.count = 0;
   add_strike(id, by, repeat_.impulse, out);
   repeat_.rested.id = train_.at(size - 1).id;
-  settle(repeat_.rested, train_.at(size - 2).id, true, out);
+  settle_with(repeat_.settled, repeat_.rested, train_.at(size - 2).id, true, out);
   for (const Repeated& told : repeat_.told) {
     const BrickId brick = told.place == size ? id : train_.at(size - 1 - told.place).id;
     if (told.place < repeat_.open) {

@@ -128,8 +128,9 @@ class Search {
   struct Reach {
     BrickId behind, ahead;
   };
-  std::vector<Reach> aside_;  // Bricks in reach that are not the nearest one.
-  std::vector<Rectangle> boxes_;
+  std::vector<Reach> aside_;       // Bricks in reach that are not the nearest one.
+  std::vector<Rectangle> bounds_;  // Of each brick, standing and fallen,
+  std::vector<Rectangle> boxes_;   // and of each block of them.
   mutable double last_heading_ = 0.0;
   mutable Axis last_axis_;
   std::string problems_;
@@ -167,14 +168,12 @@ void Search::consider(BrickId behind, BrickId ahead) {
 void Search::pair_blocks(std::size_t a, std::size_t b) {
   const BrickId count = layout_.brick_count();
   const auto first = [](std::size_t block) { return static_cast<BrickId>(block * kBlock); };
-  std::array<Rectangle, kBlock> others;
   const BrickId end_b = std::min(first(b + 1), count);
-  for (BrickId j = first(b); j < end_b; ++j) others[static_cast<std::size_t>(j - first(b))] = bounds(j);
   for (BrickId i = first(a); i < std::min(first(a + 1), count); ++i) {
-    const Rectangle box = bounds(i);
+    const Rectangle& box = bounds_[static_cast<std::size_t>(i)];
     if (!box.overlaps(boxes_[b])) continue;
     for (BrickId j = a == b ? i + 1 : first(b); j < end_b; ++j) {
-      if (!box.overlaps(others[static_cast<std::size_t>(j - first(b))])) continue;
+      if (!box.overlaps(bounds_[static_cast<std::size_t>(j)])) continue;
       consider(i, j);
       consider(j, i);
     }
@@ -185,8 +184,9 @@ void Search::pair_blocks(std::size_t a, std::size_t b) {
 void Search::pair_all() {
   const std::size_t blocks = (links_.size() + kBlock - 1) / kBlock;
   boxes_.resize(blocks);
+  bounds_.reserve(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Rectangle box = bounds(static_cast<BrickId>(i));
+    const Rectangle& box = bounds_.emplace_back(bounds(static_cast<BrickId>(i)));
     if (i % kBlock == 0) boxes_[i / kBlock] = box;
     boxes_[i / kBlock].cover(box);
   }
@@ -208,6 +208,7 @@ void Search::pair_all() {
     open.push_back(b);
   }
   boxes_ = {};
+  bounds_ = {};
 }
 
 void Search::check_pair(BrickId id) {
@@ -216,10 +217,11 @@ void Search::check_pair(BrickId id) {
   const BrickKind& ahead = layout_.kind_of(l.next);
   const Axis a = axis_of(id);
   const Axis b = axis_of(l.next);
-  const std::string who = "hinge: brick " + std::to_string(l.next) + " ahead of brick " + std::to_string(id);
-  const double turn = arc_tangent(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+  const auto who = [next = l.next, id] { return "hinge: brick " + std::to_string(next) + " ahead of brick " + std::to_string(id); };
+  const bool alike = a.x == b.x && a.y == b.y;
+  const double turn = alike ? 0.0 : arc_tangent(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
   if (std::fabs(turn) > kLargestTurn + 1e-9) {
-    return problem(who + " is turned by " + number(std::round(turn * 18000.0 / kPi) / 100.0) +
+    return problem(who() + " is turned by " + number(std::round(turn * 18000.0 / kPi) / 100.0) +
                    " deg against it; hinge follows at most 5 deg; rigid can");
   }
   const double length = std::sqrt((a.x + b.x) * (a.x + b.x) + (a.y + b.y) * (a.y + b.y));
@@ -229,20 +231,20 @@ void Search::check_pair(BrickId id) {
   l.pitch = dx * mean.x + dy * mean.y;
   const double offset = std::fabs(dy * mean.x - dx * mean.y);
   if (offset > kLargestOffset * std::min(behind.width, ahead.width)) {
-    return problem(who + " stands " + millimetres(offset) + " to one side; hinge follows at most a quarter of the width; rigid can");
+    return problem(who() + " stands " + millimetres(offset) + " to one side; hinge follows at most a quarter of the width; rigid can");
   }
   const double gap = l.pitch - ahead.thickness;
   const double height = behind.height;
   if (gap >= height) {
     l.next = kNoBrick;
   } else if (gap < kLeastGap * height) {
-    problem(who + " stands " + millimetres(gap) +
+    problem(who() + " stands " + millimetres(gap) +
             " from it; bricks that touch move as one block, hinge needs a gap of 0.5 % of the height; rigid can");
   } else if (std::sqrt(height * height - gap * gap) > ahead.height) {
-    problem(who + " is so low that it is hit above its top; rigid can");
+    problem(who() + " is so low that it is hit above its top; rigid can");
   } else if (l.pitch * l.pitch >= height * height + ahead.thickness * ahead.thickness) {
     // [vanLeeuwen2010]: the top edge of the one behind would slide off the lower end of the rear face.
-    problem(who + " stands " + millimetres(gap) + " from it, so far that the faller slips under it; hinge follows gaps under " +
+    problem(who() + " stands " + millimetres(gap) + " from it, so far that the faller slips under it; hinge follows gaps under " +
             millimetres(std::sqrt(height * height + ahead.thickness * ahead.thickness) - ahead.thickness) + "; rigid can");
   }
 }
