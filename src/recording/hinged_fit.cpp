@@ -107,7 +107,9 @@ void HingedFit::open(BrickId brick, double time, const HingedState& state, doubl
   fresh_ = true;
 }
 
-void HingedFit::push_knot(const HingedKnot& knot) {
+void HingedFit::push_knot(HingedKnot knot) {
+  // Rounded from another base it may come out before the last one: then both are at one time.
+  if (!knots_.empty()) knot.time = std::max(knot.time, knots_.back().time);
   knots_.push_back(knot);
   base_time_ = double{knot.time};
   base_angle_ = double{knot.angle};

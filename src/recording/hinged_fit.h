@@ -64,7 +64,7 @@ class HingedFit {
   void stretch(TrackStore& out);
   void flush(TrackStore& out);
   void cut(std::size_t count, TrackStore& out);
-  void push_knot(const HingedKnot& knot);
+  void push_knot(HingedKnot knot);
   void push_after(const HingedState& state);
   void end_long_piece(TrackStore& out);
   void store(TrackStore& out);
