@@ -53,6 +53,11 @@ class StudioVerb final : public Verb {
     }
     std::uintmax_t bytes = 0;
     std::size_t files = 0;
+    fs::create_directories(folder_, problem);
+    // Empty, so that a server has an answer where the page asks; what somebody has put there stays.
+    for (const char* place : {"recording.topple", "summary.json"}) {
+      if (!fs::exists(folder_ / place, problem)) std::ofstream(folder_ / place, std::ios::binary);
+    }
     for (const auto& [address, content] : site) {
       if (address == "/") continue;  // index.html again
       const fs::path file = folder_ / address.substr(1);
@@ -64,7 +69,7 @@ class StudioVerb final : public Verb {
       bytes += content.bytes.size();
       ++files;
     }
-    std::printf("%s: %zu files, %s. Any web server can serve them; a recording beside index.html, named recording.topple, is played.\n",
+    std::printf("%s: %zu files, %s. Any web server can serve them; a recording in the place of the empty recording.topple is played.\n",
                 folder_.string().c_str(), files, byte_size(bytes).c_str());
     return kDone;
   }

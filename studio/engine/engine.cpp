@@ -1,7 +1,11 @@
 /// The engine as the page sees it: a few functions over one layout and one run, text and bytes through memory. The worker that calls it
 /// is studio/src/engine/worker.ts, its typed side studio/src/engine/engine.ts.
+#include <array>
+#include <bit>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +22,9 @@ struct Desk {
   std::optional<Layout> layout;
   std::optional<Simulation> simulation;
   std::optional<RecordingWriter> writer;
+  // A run of which only the forces at contacts are wanted: nothing is recorded.
+  std::optional<Layout> watched_layout;
+  std::unique_ptr<Model> watched;
   std::vector<std::uint8_t> bytes;  ///< What the last call gives back.
   std::string answer;               ///< The same of those that give text: JSON, or an error's words.
 };
@@ -118,6 +125,29 @@ void collect(bool over) {
   }
 }
 
+template <typename Number>
+void add_bytes(std::vector<std::uint8_t>& bytes, Number number) {
+  const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(Number)>>(number);
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+/// A step's contacts: time [s], as f64, how many, as u32, four bytes of nothing; then of each a, b as u32, the point from a's foot [m] and
+/// the force on a [N], each three f32.
+void add_contacts(std::vector<std::uint8_t>& bytes, const Model& model, const Layout& layout) {
+  const std::span<const Contact> contacts = model.contacts();
+  add_bytes(bytes, static_cast<double>(model.step_count()) * model.time_step());
+  add_bytes(bytes, static_cast<std::uint32_t>(contacts.size()));
+  add_bytes(bytes, std::uint32_t{0});
+  for (const Contact& contact : contacts) {
+    const Vec3 point = contact.point - layout.bricks[static_cast<std::size_t>(contact.a)].foot;
+    add_bytes(bytes, static_cast<std::uint32_t>(contact.a));
+    add_bytes(bytes, static_cast<std::uint32_t>(contact.b));
+    for (const Vec3& v : {point, contact.force}) {
+      for (const double number : {v.x, v.y, v.z}) add_bytes(bytes, static_cast<float>(number));
+    }
+  }
+}
+
 std::string hash_digits(std::uint64_t hash) {
   char text[20];
   std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
@@ -182,6 +212,36 @@ TOPPLE_EXPORT(topple_stop) void topple_stop() { desk().simulation->stop(); }
 
 /// The bytes become what was recorded since the last call; with `over` the rest and the end.
 TOPPLE_EXPORT(topple_collect) void topple_collect(bool over) { topple::collect(over); }
+
+/// Begins to watch the forces of a layout's run, beside any other. False: the answer says why not.
+TOPPLE_EXPORT(topple_watch)
+bool topple_watch(const char* text, std::size_t size, const char* name, std::size_t name_size, const char* overrides,
+                  std::size_t overrides_size) {
+  topple::Desk& all = desk();
+  all.watched.reset();
+  const std::vector<std::string> settings = topple::lines_of({overrides, overrides_size});
+  topple::Result<topple::Layout> layout = topple::read_layout({text, size}, {name, name_size}, settings);
+  if (!layout) return topple::fail(layout.error());
+  all.watched_layout = std::move(*layout);
+  const topple::Result<topple::ModelConfig> config = topple::model_config(*all.watched_layout);
+  if (!config) return topple::fail(config.error());
+  auto model = topple::make_model(*all.watched_layout, *config);
+  if (!model) return topple::fail(model.error());
+  all.watched = std::move(*model);
+  return true;
+}
+
+/// So many steps of it, or fewer at its end; the bytes are their contacts. False when it is over.
+TOPPLE_EXPORT(topple_watch_steps) bool topple_watch_steps(int steps) {
+  topple::Desk& all = desk();
+  all.bytes.clear();
+  bool goes_on = true;
+  for (int i = 0; i < steps && goes_on; ++i) {
+    goes_on = all.watched->step().progress == topple::Progress::running;
+    topple::add_contacts(all.bytes, *all.watched, *all.watched_layout);
+  }
+  return goes_on;
+}
 
 TOPPLE_EXPORT(topple_time) double topple_time() { return desk().simulation->progress().time; }
 TOPPLE_EXPORT(topple_arrived) double topple_arrived() { return static_cast<double>(desk().simulation->progress().arrived); }

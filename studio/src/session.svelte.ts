@@ -110,7 +110,8 @@ export class Session {
     if (this.alone) return;
     try {
       const answer = await fetch('summary.json');
-      if (answer.ok && answer.status === 200) this.player.summary = (await answer.json()) as Summary;
+      const text = answer.ok ? await answer.text() : ''; // empty where plain files hold none
+      if (text) this.player.summary = JSON.parse(text) as Summary;
     } catch {
       this.player.summary = null; // the page does without
     }

@@ -55,6 +55,8 @@ interface Exports {
   topple_advance(steps: number): number;
   topple_stop(): void;
   topple_collect(over: number): void;
+  topple_watch(...texts: number[]): number;
+  topple_watch_steps(steps: number): number;
   topple_time(): number;
   topple_arrived(): number;
   topple_steps(): number;
@@ -132,6 +134,17 @@ export class Engine {
   collect(over: boolean): Uint8Array<ArrayBuffer> {
     this.c.topple_collect(over ? 1 : 0);
     return this.bytes();
+  }
+
+  /** Begins to watch the forces at contacts of a run, of which nothing is recorded. @throws LayoutError */
+  watch(text: string, name = 'layout.toml', overrides: readonly string[] = []): void {
+    if (!this.withTexts(this.c.topple_watch, [text, name, overrides.join('\n')])) throw new LayoutError(this.answer());
+  }
+
+  /** So many steps of it. @returns Their contacts as forces.ts reads them, and whether it goes on. */
+  watchSteps(steps: number): { bytes: Uint8Array<ArrayBuffer>; more: boolean } {
+    const more = this.c.topple_watch_steps(steps) !== 0;
+    return { bytes: this.bytes(), more };
   }
 
   /** Simulated so far [s]. */

@@ -26,6 +26,7 @@ export const kKeyList: { title: string; keys: { keys: string[]; does: string }[]
       { keys: ['4'], does: 'From the top' },
       { keys: ['0'], does: 'Frame all' },
       { keys: ['G'], does: 'Ghost: the bricks as they were put down' },
+      { keys: ['F'], does: 'Forces: what presses on what now, as arrows' },
       { keys: ['M'], does: 'Measure: click two places on the table' },
       { keys: ['H'], does: 'Heat: colour the bricks by when they were struck' },
     ],
@@ -52,6 +53,7 @@ export interface PageActions {
   showKeys: () => void;
   toggleHeat: () => void;
   toggleGhost: () => void;
+  toggleForces: () => void;
   toggleMeasure: () => void;
   /** Leaves what is under way: measuring, else the choice of a brick. */
   leave: () => void;
@@ -88,6 +90,7 @@ function actionFor(key: string, shift: boolean, player: Player, stage: Stage, pa
     '0': () => stage.frameAll(),
     n: () => player.chooseNext(shift ? -1 : 1),
     g: () => page.toggleGhost(),
+    f: () => page.toggleForces(),
     m: () => page.toggleMeasure(),
     h: () => page.toggleHeat(),
     '?': () => page.showKeys(),

@@ -186,7 +186,7 @@ export class Stage {
 }
 
 /** Middle of the bricks' feet on the table [m]: the view's origin. */
-function middleOf(recording: Recording): [number, number, number] {
+export function middleOf(recording: Recording): [number, number, number] {
   const { foot, count } = recording.bricks;
   let [lowX, highX, lowY, highY] = [Infinity, -Infinity, Infinity, -Infinity];
   for (let brick = 0; brick < count; brick++) {

@@ -58,3 +58,9 @@ export function eventWords(recording: Recording, event: number, brick: number): 
       return mine ? 'comes to rest' : `${other} comes to rest`;
   }
 }
+
+/** With a capital and a full stop. */
+export function sentence(words: string): string {
+  const trimmed = words.trim();
+  return trimmed.charAt(0).toUpperCase() + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? '' : '.');
+}

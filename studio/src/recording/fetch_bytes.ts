@@ -31,6 +31,7 @@ export async function fetchBytes(url: string, progress: (done: number, of: numbe
     done += value.length;
     progress(done, of);
   }
+  if (done === 0) throw new FetchError('There is no recording here.', true); // plain files hold an empty one in its place
   const all = new Uint8Array(done);
   let at = 0;
   for (const part of parts) {

@@ -18,7 +18,7 @@ export type Theme = 'light' | 'dark';
 /** Frames in a finished still, on a graphics card and drawn in software. */
 const kStillFrames = { card: 128, software: 40 };
 /** The ACES fit is made for a scene a little brighter than white paper. */
-const kExposure = 1 / 0.6;
+export const kExposure = 1 / 0.6;
 /** How long nothing must move before the still begins [s]. */
 const kPatience = 0.25;
 /** Bricks that frame the run: more would not change the picture. */
@@ -89,6 +89,10 @@ export class View {
 
   private async makeShaders(): Promise<void> {
     const { renderer } = this;
+    if (!renderer.extensions.has('KHR_parallel_shader_compile')) {
+      this.ready = true;
+      return;
+    }
     this.light.useLive();
     const shadow = new Mesh(this.bricks.mesh.geometry, this.bricks.mesh.customDepthMaterial);
     this.scene.add(shadow);
@@ -330,18 +334,18 @@ async function pngOf(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, heig
 }
 
 /** Height of the tallest kind [m]; of a usual brick where there is none. */
-function tallest(recording: Recording): number {
+export function tallest(recording: Recording): number {
   return recording.kinds.length ? Math.max(...recording.kinds.map((kind) => kind.height)) : 0.048;
 }
 
-function isSoftware(renderer: WebGLRenderer): boolean {
+export function isSoftware(renderer: WebGLRenderer): boolean {
   const gl = renderer.getContext();
   const names = gl.getExtension('WEBGL_debug_renderer_info');
   const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
   return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
-function framePoints(recording: Recording, origin: readonly number[]): Vector3[] {
+export function framePoints(recording: Recording, origin: readonly number[]): Vector3[] {
   const { bricks } = recording;
   const step = Math.max(1, Math.floor(bricks.count / kFramePoints));
   const points: Vector3[] = [];
@@ -357,7 +361,7 @@ function framePoints(recording: Recording, origin: readonly number[]): Vector3[]
   return points;
 }
 
-function boundsOf(points: readonly Vector3[]): Bounds {
+export function boundsOf(points: readonly Vector3[]): Bounds {
   const bounds = { low: new Vector3(Infinity, Infinity, Infinity), high: new Vector3(-Infinity, -Infinity, -Infinity) };
   for (const point of points) {
     bounds.low.min(point);

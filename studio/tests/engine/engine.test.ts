@@ -6,6 +6,7 @@ import { brotliCompressSync } from 'node:zlib';
 import { beforeAll, describe, expect, test } from 'vitest';
 import { kGallery } from '../../src/draw/gallery.ts';
 import { Engine, LayoutError } from '../../src/engine/engine.ts';
+import { ContactSteps, kFloor } from '../../src/forces/contact_steps.ts';
 import { decodeRecording } from '../../src/recording/decode.ts';
 import { GrowingRecording } from '../../src/recording/growing.ts';
 import { halfExtents, hingedPose, newPose, tiltOf } from '../../src/recording/pose.ts';
@@ -48,6 +49,28 @@ describe('the engine', () => {
     expect(draft.bricks).toBe(4);
     expect(draft.doubts[0]).toMatchObject({ kind: 'overlap', brick: 3, other: 1 });
     expect(() => engine.start(text)).toThrow(/overlap/);
+  });
+
+  test('the forces of a falling row: the floor presses upwards, bricks forwards, as much as the motion needs', () => {
+    engine.watch(row(6), 'row.toml', ['model.name=rigid']);
+    const steps = new ContactSteps(engine.watchSteps(12).bytes);
+    expect(steps.times.length).toBe(12);
+    // Before it strikes the next one the first brick alone presses on the floor, near its toe, 3.75 mm ahead of its foot.
+    const [one] = steps.at(11);
+    expect(steps.at(11).every(({ brick, by }) => brick === 0 && by === kFloor)).toBe(true);
+    expect(one.point[0]).toBeCloseTo(0.00375, 4);
+    expect(one.force[2]).toBeGreaterThan(0);
+    // The hinge hands on what its motion says: some brick presses on the one ahead of it.
+    engine.watch(row(6), 'row.toml', ['model.name=hinge']);
+    const later = new ContactSteps(engine.watchSteps(20).bytes).at(19);
+    const pairs = later.filter(({ by }) => by !== kFloor);
+    expect(pairs.length).toBeGreaterThan(0);
+    for (const { brick, by, force } of pairs) {
+      expect(brick).toBe(by + 1);
+      expect(force[0]).toBeGreaterThan(0);
+    }
+    // A run that goes on beside it is not disturbed.
+    expect(() => engine.watch('[[row]]\ncount = 0\n')).toThrow(LayoutError);
   });
 
   test('a stop ends a run cleanly where it is', () => {

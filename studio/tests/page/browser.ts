@@ -39,6 +39,23 @@ export async function serve(recording: Uint8Array | null, summary: object | null
       () => response.writeHead(path === '/summary.json' || path === '/recording.topple' ? 204 : 404).end(),
     );
   });
+  return listening(server);
+}
+
+/** Serves a folder as any server of plain files does: what is not there is 404. */
+export async function serveFolder(folder: string): Promise<Site> {
+  const server = createServer((request, response) => {
+    const path = normalize(new URL(request.url ?? '/', 'http://localhost').pathname);
+    const file = join(folder, path === '/' ? 'index.html' : path);
+    readFile(file).then(
+      (bytes) => response.writeHead(200, { 'content-type': kTypes[extname(file)] ?? 'application/octet-stream' }).end(bytes),
+      () => response.writeHead(404).end(),
+    );
+  });
+  return listening(server);
+}
+
+async function listening(server: Server): Promise<Site> {
   await new Promise<void>((ready) => server.listen(0, '127.0.0.1', ready));
   const address = server.address();
   const port = typeof address === 'object' && address ? address.port : 0;

@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import type { Browser, BrowserContext, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { kGallery } from '../../src/draw/gallery.ts';
-import { kOut, kProgram, kRoot, launch, serve, type Site } from './browser.ts';
+import { kOut, kProgram, kRoot, launch, serve, serveFolder, type Site } from './browser.ts';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const golden = readFileSync(join(kRoot, 'tests/golden/hashes.txt'), 'utf8').split('\n').filter((line) => line && !line.startsWith('#')).map((line) => line.split(' '));
@@ -188,6 +188,21 @@ describe('a new user', () => {
     await page.getByRole('button', { name: 'Compare' }).click();
     const rigid = page.getByRole('article', { name: 'Rigid' });
     await expect.poll(() => rigid.innerText(), { timeout: 30000 }).toMatch(/Front speed\s+[\d.]+ m\/s[\s\S]*Hash/);
+    // Each of the three views shows its model's bricks at the one time: what has fallen differs from what stands.
+    const views = page.locator('.views');
+    const box = (await views.boundingBox())!;
+    const colorful = (): Promise<number[]> => colorsIn(page, box, 3);
+    expect(Math.min(...(await colorful()))).toBeGreaterThan(20);
+    await page.getByLabel('Time').fill('0.6');
+    await expect.poll(() => views.innerText()).toMatch(/Rigid\s+[1-9]\d* of/);
+    // One camera for all: turned in one view, every view turns.
+    const before = await page.screenshot({ clip: { ...box, x: box.x + (2 * box.width) / 3, width: box.width / 3 } });
+    await page.mouse.move(box.x + 60, box.y + 120);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 160, box.y + 110, { steps: 3 });
+    await page.mouse.up();
+    await expect.poll(async () => before.equals(await page.screenshot({ clip: { ...box, x: box.x + (2 * box.width) / 3, width: box.width / 3 } }))).toBe(false);
+    await page.keyboard.press('End');
     await page.getByRole('button', { name: 'Play all three' }).click();
     await page.getByRole('button', { name: 'Draw', exact: true }).click();
   });
@@ -338,8 +353,39 @@ test.skipIf(!existsSync(kProgram))('topple studio --export writes the page; topp
   const folder = await mkdtemp(join(tmpdir(), 'topple film '));
   execFileSync(kProgram, ['studio', '--export', join(folder, 'site')]);
   expect(existsSync(join(folder, 'site/index.html')) && existsSync(join(folder, 'site/engine.wasm'))).toBe(true);
+  await writeFile(join(folder, 'site/recording.topple'), 'mine');
+  execFileSync(kProgram, ['studio', '--export', join(folder, 'site')]);
+  expect(readFileSync(join(folder, 'site/recording.topple'), 'utf8')).toBe('mine'); // what somebody put there stays
+  await writeFile(join(folder, 'site/recording.topple'), '');
+  const plain = await serveFolder(join(folder, 'site'));
+  const visitor = await browser.newPage();
+  const said: string[] = [];
+  visitor.on('console', (message) => message.type() === 'error' && said.push(message.text()));
+  await visitor.goto(plain.url);
+  await visitor.waitForFunction(() => window.topple?.mode === 'draw');
+  await visitor.waitForTimeout(500);
+  expect(said).toEqual([]);
+  await visitor.close();
+  await plain.close();
   const film = join(folder, 'row.webm');
   execFileSync(kProgram, ['render', join(kRoot, 'studio/tests/page/row.toml'), '-o', film, '--size', '160x90', '--fps', '5', '--camera', 'front'], { stdio: 'pipe' });
   expect([...readFileSync(film).subarray(0, 4)]).toEqual([0x1a, 0x45, 0xdf, 0xa3]);
   await rm(folder, { recursive: true });
 });
+
+/** How many pixels of each of so many columns are colourful, as bricks are and the page is not. */
+async function colorsIn(shown: Page, clip: { x: number; y: number; width: number; height: number }, columns: number): Promise<number[]> {
+  const shot = (await shown.screenshot({ clip })).toString('base64');
+  return shown.evaluate(async ([base64, n]) => {
+    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${base64}`)).blob());
+    const pen = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d')!;
+    pen.drawImage(bitmap, 0, 0);
+    const { data, width } = pen.getImageData(0, 0, bitmap.width, bitmap.height);
+    const found = new Array<number>(n as number).fill(0);
+    for (let i = 0; i < data.length; i += 4) {
+      const colors = data.slice(i, i + 3);
+      if (Math.max(...colors) - Math.min(...colors) > 60) found[Math.min(found.length - 1, Math.floor((((i / 4) % width) * found.length) / width))]++;
+    }
+    return found;
+  }, [shot, columns] as const);
+}

@@ -133,6 +133,38 @@ test('the push can be changed in the panel', async () => {
   expect(await page.evaluate(() => window.topple.doubts.join())).toMatch(/brick 0/); // nothing reaches it any more
 });
 
+test('forces at contacts are arrows: of all that moves, of the chosen brick, and a sentence where the model has none', async () => {
+  await tool('Row');
+  await drag([-150, 0], [150, 0]);
+  await settled();
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.evaluate(() => window.topple.seek(0.3));
+  await page.keyboard.press('f');
+  const legend = page.locator('.legend');
+  await expect.poll(() => legend.innerText()).toMatch(/brick on brick\s+floor on brick\s+strongest [\d.]+ N\s+a brick weighs 0\.08\d N/);
+  const arrows = async (): Promise<number> => (await page.locator('path.head').evaluateAll((all) => all.map((one) => one.getAttribute('d') ?? '').join(''))).split('M').length - 1;
+  const all = await arrows();
+  expect(all).toBeGreaterThan(3);
+  await page.evaluate(() => window.topple.choose(1));
+  await expect.poll(arrows).toBeLessThan(all);
+  expect(await arrows()).toBeGreaterThan(0);
+  // Back before the first contact: the reel begins again where it must.
+  await page.keyboard.press('Home');
+  await expect.poll(() => legend.innerText()).toMatch(/nothing moves|strongest/);
+  await page.keyboard.press('f');
+  expect(await legend.count()).toBe(0);
+  const layout = '[[push]]\nangular_speed_rad_s = 6\n\n[[row]]\ncount = 4\ngap_mm = 16.5\n\n[model]\nname = "pivot"\n';
+  await page.getByLabel('Layout or recording file').setInputFiles({ name: 'mine.toml', mimeType: 'application/toml', buffer: Buffer.from(layout) });
+  await page.waitForFunction((wanted) => window.topple.text === wanted && window.topple.settled, layout);
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.keyboard.press('f');
+  await expect.poll(() => legend.innerText()).toBe('Pivot hands hits on and knows no forces between bricks that lean; hinge and rigid do.');
+  await page.keyboard.press('f');
+});
+
 test('slow motion goes round the cursor, and back to what it was', async () => {
   await tool('Row');
   await drag([-250, 0], [250, 0]);
