@@ -93,14 +93,10 @@ inline std::int32_t expected(const WholeFree& last, const WholeFree& now, std::s
 // Seven bits a byte, the lowest first; the eighth says that more follow. The sign is the lowest bit.
 constexpr std::size_t kMostBytes = 5;  // Of a number.
 inline void put(std::uint8_t*& out, std::uint32_t value) {
-  if (value < 128) {
-    *out++ = static_cast<std::uint8_t>(value);
-    return;
-  }
   // Up to four bytes at once: how many differs from number to number, and a loop would be guessed wrong.
   if (value < (1U << 28)) {
     const std::uint32_t spread = (value & 0x7FU) | ((value & 0x3F80U) << 1) | ((value & 0x1FC000U) << 2) | ((value & 0xFE00000U) << 3);
-    const auto more = (static_cast<unsigned>(std::bit_width(value)) - 1) / 7;
+    const auto more = (static_cast<unsigned>(std::bit_width(value | 1U)) - 1) / 7;
     const std::uint32_t word = spread | (0x80808080U & ((1U << (8 * more)) - 1));
     std::memcpy(out, &word, sizeof word);
     out += more + 1;

@@ -29,7 +29,7 @@ void Chain::find_turn_over(double from) {
     if (!(direction_ * (goal_angle_ - angle) > 0.0)) continue;
     goal_angle_ = angle;
     goal_ = Goal::turn_over;
-    train_.edges(goal_angle_, rates_);
+    if (k + 1 < train_.size()) train_.edges(goal_angle_, rates_);
   }
 }
 
@@ -69,9 +69,10 @@ void Chain::turn_over(Happenings& out) {
   }
   if (!any) return;
   for (std::size_t k = 0; k < train_.size(); ++k) rates_[k] = before_[train_.size() - 1 - k].rate;
-  const double inertia = train_.place(state_.angle, direction_).inertia;
-  const double rate = train_.front_momentum(rates_, direction_) / inertia;
-  restart(direction_ * rate > 0.0 ? rate : 0.0);
+  view_ = train_.place(state_.angle, direction_);
+  const double rate = train_.front_momentum(rates_, direction_) / view_.inertia;
+  state_.rate = direction_ * rate > 0.0 ? rate : 0.0;
+  state_.acceleration = view_.acceleration(state_.rate);
   add_kinks(out);
   if (state_.rate == 0.0) {
     begin_motion();
