@@ -1,6 +1,6 @@
 /** Several runs of one layout in one canvas: a place for each, one camera for all, one light, and each run's bricks at the same time. */
 
-import { HalfFloatType, Scene, Vector2, WebGLRenderer, WebGLRenderTarget } from 'three';
+import { HalfFloatType, Scene, Vector2, type Vector3, WebGLRenderer, WebGLRenderTarget } from 'three';
 import { Playhead } from '../recording/playhead.ts';
 import type { Recording } from '../recording/types.ts';
 import { BrickMesh } from '../view/bricks.ts';
@@ -44,12 +44,17 @@ export class Trio {
   private asked = 0;
   private last = 0;
 
-  /** @param layout Its bricks as they stand: what each place shows until its run is there. @param origin Near them [m]. */
+  /**
+   * @param layout Its bricks as they stand: what each place shows until its run is there.
+   * @param origin Near them [m].
+   * @param forward Which way the camera looks at first; null: as suits the bricks.
+   */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly layout: Recording,
     origin: readonly [number, number, number],
     count: number,
+    forward: Vector3 | null,
   ) {
     this.origin = origin;
     this.renderer = new WebGLRenderer({ canvas, antialias: false });
@@ -60,6 +65,7 @@ export class Trio {
     this.bounds = boundsOf(points);
     this.rig = new Rig(canvas, points, this.brickHeight, () => this.wake());
     this.rig.controls.zoomToCursor = false; // the pointer is in one of several places
+    this.rig.forward = forward;
     this.rig.insets = { left: 0.05, right: 0.05, top: 0.2, bottom: 0.08 };
     this.light = new Light(this.scene, this.renderer, this.software ? 1024 : 2048);
     this.light.useLive();

@@ -21,6 +21,8 @@ export class Rig {
   readonly controls: OrbitControls;
   way: Way = 'orbit';
   insets: Insets = { left: 0.04, right: 0.04, top: 0.13, bottom: 0.07 };
+  /** Which way to look when all bricks are framed, instead of the way that suits them. */
+  forward: Vector3 | null = null;
   /** Cut instead of flying. */
   still = matchMedia('(prefers-reduced-motion: reduce)').matches;
   /** All bricks are in view and nobody has moved the camera since: it keeps them in view when the page changes its size. */
@@ -152,6 +154,7 @@ export class Rig {
   }
 
   defaultForward(): Vector3 {
+    if (this.forward) return this.forward.clone();
     return this.drawing ? new Vector3(0, 0.7, -0.72) : defaultDirection(this.points);
   }
 
