@@ -120,5 +120,5 @@ TEST_CASE("a_push_amid_an_even_row_is_felt_as_if_all_had_been_computed") {
 TEST_CASE("the_motion_of_an_even_row_is_kept_once") {
   const Layout layout = make_row({.count = 3000, .gap = 0.0165});
   // A track takes 100 to 300 bytes.
-  CHECK(recorded(layout, {.repeats = false}).memory() > recorded(layout, {}).memory() + 100U * 2900U);
+  CHECK(recorded(layout, {.repeats = false}).memory() > recorded(layout, {}).memory() + std::size_t{100} * 2900);
 }

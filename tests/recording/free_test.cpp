@@ -216,7 +216,8 @@ TEST_CASE("a recording whose tracks are let go when they are written makes the s
   for (BrickId i = 0; i < kBricks; ++i) {
     Flight flight = eight[static_cast<std::size_t>(i % 8)];
     flight.brick = i;
-    const double later = 0.01 * (i / 8);
+    const BrickId eighth = i / 8;
+    const double later = 0.01 * eighth;
     for (auto& part : flight.parts) part.start += later;
     flight.end += later;
     all.push_back(flight);
