@@ -50,21 +50,25 @@ double face_separation(const BoxPair& p, int axis) {
          std::abs(p.r[2][k]) * p.a_half[2];
 }
 
-// Minus infinity where the two edges are so nearly parallel that a face axis does as well.
-double edge_separation(const BoxPair& p, int axis) {
+// Minus infinity where the two edges are so nearly parallel that a face axis does as well, or where the boxes overlap along the axis by so
+// much more than `needed` (at most zero) that it does not matter how much.
+double edge_separation(const BoxPair& p, int axis, double needed) {
   const auto i = static_cast<std::size_t>((axis - kFirstEdgeAxis) / 3);
   const auto j = static_cast<std::size_t>((axis - kFirstEdgeAxis) % 3);
-  const double sine_squared = 1.0 - p.r[i][j] * p.r[i][j];
-  if (sine_squared < 1e-6) return -std::numeric_limits<double>::infinity();
   const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   const double distance = std::abs(p.a_apart[i2] * p.r[i1][j] - p.a_apart[i1] * p.r[i2][j]);
   const double reach = p.a_half[i1] * std::abs(p.r[i2][j]) + p.a_half[i2] * std::abs(p.r[i1][j]) + p.b_half[j1] * std::abs(p.r[i][j2]) +
                        p.b_half[j2] * std::abs(p.r[i][j1]);
+  // The length of the axis, by which this is divided, is at most one.
+  if (distance - reach < needed) return -std::numeric_limits<double>::infinity();
+  const double sine_squared = 1.0 - p.r[i][j] * p.r[i][j];
+  if (sine_squared < 1e-6) return -std::numeric_limits<double>::infinity();
   return (distance - reach) / std::sqrt(sine_squared);
 }
 
+// A corner of the polygon that is left of a face: its place in the axes of the other face, and how far in front of that it is.
 struct ClipVertex {
-  Vec3 position;
+  double u = 0.0, v = 0.0, separation = 0.0;
   std::uint32_t tag = 0;
 };
 
@@ -74,68 +78,80 @@ struct Polygon {
   void add(const ClipVertex& v) { vertices[static_cast<std::size_t>(count++)] = v; }
 };
 
-// Sutherland and Hodgman: keeps what lies on the inner side, normal . x <= offset.
-void clip(const Polygon& in, const Vec3& normal, double offset, std::uint32_t plane, Polygon& out) {
+// Sutherland and Hodgman: keeps what lies on the inner side, sign * coordinate <= limit. Returns whether there was anything to cut off;
+// else `out` is not written.
+bool clip(const Polygon& in, double ClipVertex::* coordinate, double sign, double limit, std::uint32_t plane, Polygon& out) {
+  const auto beyond = [&](const ClipVertex& vertex) { return sign * vertex.*coordinate - limit; };
+  const auto begin = in.vertices.begin(), end = begin + in.count;
+  if (std::all_of(begin, end, [&](const ClipVertex& vertex) { return beyond(vertex) <= 0.0; })) return false;
   out.count = 0;
   for (int i = 0; i < in.count; ++i) {
     const ClipVertex& from = in.vertices[static_cast<std::size_t>(i)];
-    const ClipVertex& to = in.vertices[static_cast<std::size_t>((i + 1) % in.count)];
-    const double d0 = dot(normal, from.position) - offset;
-    const double d1 = dot(normal, to.position) - offset;
+    const ClipVertex& to = in.vertices[static_cast<std::size_t>(i + 1 < in.count ? i + 1 : 0)];
+    const double d0 = beyond(from), d1 = beyond(to);
     if (d0 <= 0.0) out.add(from);
     if ((d0 <= 0.0) != (d1 <= 0.0)) {
       const double share = d0 / (d0 - d1);
       // A plane cuts a convex polygon twice: on the way out and on the way in.
-      out.add({from.position + share * (to.position - from.position), 4U + 2U * plane + (d0 <= 0.0 ? 0U : 1U)});
+      out.add({from.u + share * (to.u - from.u), from.v + share * (to.v - from.v),
+               from.separation + share * (to.separation - from.separation), 4U + 2U * plane + (d0 <= 0.0 ? 0U : 1U)});
     }
   }
+  return true;
 }
 
-// The face of `body` that looks most against `direction`, as a polygon with its corners tagged 0-3 and the face's number.
-std::uint32_t incident_face(const Body& body, const Vec3& direction, Polygon& out) {
+// The face of `body` that looks most against `direction`: its middle, and from there half its length and half its width.
+struct Face {
+  Vec3 middle, half_u, half_v;
+  std::uint32_t number = 0;
+};
+
+Face facing(const Body& body, const Vec3& direction) {
   const Vec3 local = transposed_times(body.axes, direction);
   const double ax = std::abs(local.x), ay = std::abs(local.y), az = std::abs(local.z);
   const int axis = (ax >= ay && ax >= az) ? 0 : (ay >= az ? 1 : 2);
   const double side = component(local, axis) > 0.0 ? -1.0 : 1.0;
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const Vec3 centre = body.position + (side * component(body.half, axis)) * column(body.axes, axis);
-  const Vec3 du = component(body.half, u) * column(body.axes, u);
-  const Vec3 dv = component(body.half, v) * column(body.axes, v);
-  out.count = 0;
-  out.add({centre + du + dv, 0});
-  out.add({centre - du + dv, 1});
-  out.add({centre - du - dv, 2});
-  out.add({centre + du - dv, 3});
-  return static_cast<std::uint32_t>(2 * axis + (side > 0.0 ? 1 : 0));
+  return {body.position + (side * component(body.half, axis)) * column(body.axes, axis), component(body.half, u) * column(body.axes, u),
+          component(body.half, v) * column(body.axes, v), static_cast<std::uint32_t>(2 * axis + (side > 0.0 ? 1 : 0))};
 }
 
-// Clips the face of `other` that looks at the reference face by the sides of that face. `outward` is the reference face's normal.
+// Clips the face of `other` that looks at the reference face by the sides of that face.
 void face_points(const Body& base, const Body& other, int face_axis, const Vec3& outward, double margin, Manifold& out) {
+  const Face face = facing(other, outward);
+  const int u = (face_axis + 1) % 3, v = (face_axis + 2) % 3;
+  const Vec3 along_u = column(base.axes, u), along_v = column(base.axes, v);
+  const auto in_face = [&](const Vec3& way) { return ClipVertex{dot(along_u, way), dot(along_v, way), dot(outward, way)}; };
+  const ClipVertex middle = in_face(face.middle - base.position), to_u = in_face(face.half_u), to_v = in_face(face.half_v);
+  const double depth = component(base.half, face_axis);
   Polygon front, back;
-  const std::uint32_t face = incident_face(other, outward, front);
+  const auto add_corner = [&](double s, double t, std::uint32_t tag) {
+    front.add({middle.u + s * to_u.u + t * to_v.u, middle.v + s * to_u.v + t * to_v.v,
+               middle.separation + s * to_u.separation + t * to_v.separation - depth, tag});
+  };
+  add_corner(1.0, 1.0, 0);
+  add_corner(-1.0, 1.0, 1);
+  add_corner(-1.0, -1.0, 2);
+  add_corner(1.0, -1.0, 3);
   Polygon* in = &front;
   Polygon* result = &back;
+  const auto cut = [&](double ClipVertex::* coordinate, double sign, double limit, std::uint32_t plane) {
+    if (clip(*in, coordinate, sign, limit, plane, *result)) std::swap(in, result);
+  };
   // A hair's breadth wider, so that bricks of one width keep their corners instead of cutting them at random.
   const double hair = 1e-7 * base.radius;
-  std::uint32_t plane = 1;
-  for (int side = 1; side <= 2; ++side) {
-    const int axis = (face_axis + side) % 3;
-    const Vec3 normal = column(base.axes, axis);
-    const double centre = dot(normal, base.position);
-    const double half = component(base.half, axis) + hair;
-    clip(*in, normal, centre + half, plane++, *result);
-    std::swap(in, result);
-    clip(*in, -normal, half - centre, plane++, *result);
-    std::swap(in, result);
-  }
-  const double offset = dot(outward, base.position) + component(base.half, face_axis);
-  const std::uint32_t code = (out.reference == Reference::a ? 1U << 16 : 2U << 16) + (face << 8);
+  const double limit_u = component(base.half, u) + hair, limit_v = component(base.half, v) + hair;
+  cut(&ClipVertex::u, 1.0, limit_u, 1);
+  cut(&ClipVertex::u, -1.0, limit_u, 2);
+  cut(&ClipVertex::v, 1.0, limit_v, 3);
+  cut(&ClipVertex::v, -1.0, limit_v, 4);
+  const std::uint32_t code = (out.reference == Reference::a ? 1U << 16 : 2U << 16) + (face.number << 8);
   out.count = 0;
   for (int i = 0; i < in->count && out.count < 8; ++i) {
-    const ClipVertex& v = in->vertices[static_cast<std::size_t>(i)];
-    const double separation = dot(outward, v.position) - offset;
-    if (separation > margin) continue;
-    out.points[static_cast<std::size_t>(out.count++)] = {v.position, separation, code + v.tag};
+    const ClipVertex& vertex = in->vertices[static_cast<std::size_t>(i)];
+    if (vertex.separation > margin) continue;
+    const Vec3 place = base.position + vertex.u * along_u + vertex.v * along_v + (depth + vertex.separation) * outward;
+    out.points[static_cast<std::size_t>(out.count++)] = {place, vertex.separation, code + vertex.tag};
   }
 }
 
@@ -205,9 +221,11 @@ void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out) {
   out.count = 0;
   int& axis = out.axis;
   const BoxPair p = pair_up(a, b);
-  const auto separation_on = [&p](int k) { return k < kFirstEdgeAxis ? face_separation(p, k) : edge_separation(p, k); };
+  const auto separation_on = [&p](int k, double needed) {
+    return k < kFirstEdgeAxis ? face_separation(p, k) : edge_separation(p, k, needed);
+  };
   if (axis >= 0) {
-    out.parted = separation_on(axis);
+    out.parted = separation_on(axis, -std::numeric_limits<double>::infinity());
     if (out.parted > margin) return;
   }
   // A face is kept, and preferred to an edge, unless another axis is clearly better: flips of the normal cost warm starts.
@@ -215,7 +233,7 @@ void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out) {
   BestAxis best;
   double best_score = best.separation;
   for (int k = 0; k < 15; ++k) {
-    const double separation = separation_on(k);
+    const double separation = separation_on(k, std::min(best_score, 0.0));
     if (separation > margin) {
       axis = k;
       out.parted = separation;

@@ -6,8 +6,6 @@ namespace topple::rigid {
 
 namespace {
 
-constexpr int kQuickSweeps = 12;
-constexpr double kQuickTolerance = 30.0;
 // Along a wave: so many sweeps, then at most so many systems of equations, so many times over.
 constexpr int kSweeps = 4;
 constexpr int kSystems = 8;
@@ -26,14 +24,12 @@ void ContactSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, st
   free_.clear();
   for (const Body& body : bodies) free_.push_back(velocity_of(body.velocity, body.angular_velocity));
   velocity_ = free_;
-  if (limits.effort != Effort::quick || !solve_quickly(rows, limits)) {
-    chain_.begin(rows, bodies);
-    if (limits.effort == Effort::stacked) {
-      if (!solve_stack(rows, guess, limits)) sweep_stack(rows, bodies, limits);
-    } else if (!solve_wave(rows, limits)) {
-      const double change = sweep(rows, limits.sweeps, limits.tolerance);
-      if (change > limits.lost) find_back(rows, bodies, limits, change);
-    }
+  chain_.begin(rows, bodies);
+  if (limits.stacked) {
+    if (!solve_stack(rows, guess, limits)) sweep_stack(rows, bodies, limits);
+  } else if (!solve_wave(rows, limits)) {
+    const double change = sweep(rows, limits.sweeps, limits.tolerance);
+    if (change > limits.lost) find_back(rows, bodies, limits, change);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Velocity& v = velocity_[i];
@@ -49,10 +45,6 @@ double ContactSolver::sweep(std::span<ContactRow> rows, int most, double toleran
   Sweeps::tell_states(rows);
   velocity_ = sweeps_.velocity;
   return change;
-}
-
-bool ContactSolver::solve_quickly(std::span<ContactRow> rows, const SolveLimits& limits) {
-  return sweep(rows, kQuickSweeps, kQuickTolerance * limits.tolerance) < limits.lost;
 }
 
 bool ContactSolver::solve_wave(std::span<ContactRow> rows, const SolveLimits& limits) {

@@ -16,18 +16,11 @@ struct Twist {
   Vec3 spin;      ///< World axes [rad/s].
 };
 
-/// How far a solution goes. A blow is followed within the step by a kick, which mends what is left of it, so along a wave a few sweeps do.
-enum class Effort : std::uint8_t {
-  quick,    ///< A few sweeps.
-  exact,    ///< Until every point obeys the laws of contact, if it can be.
-  stacked,  ///< The same where bricks stand on bricks: what they carry comes from far below.
-};
-
 struct SolveLimits {
   double tolerance = 0.0;  ///< Of velocities [m/s].
   int sweeps = 0;          ///< Most sweeps, where Newton's method fails.
   double lost = 0.0;       ///< Sweeps that end with larger changes have lost their way [m/s].
-  Effort effort = Effort::exact;
+  bool stacked = false;    ///< Bricks stand on bricks: what they carry comes from far below.
 };
 
 /// Sweeps find out, from what was so in the last solution, which points press and slide; Newton's method then solves for all at once, and
@@ -41,7 +34,6 @@ class ContactSolver {
 
  private:
   double sweep(std::span<ContactRow> rows, int most, double tolerance);
-  bool solve_quickly(std::span<ContactRow> rows, const SolveLimits& limits);
   bool solve_wave(std::span<ContactRow> rows, const SolveLimits& limits);
   bool solve_stack(std::span<ContactRow> rows, std::span<const Twist> guess, const SolveLimits& limits);
   double sweep_stack(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits);

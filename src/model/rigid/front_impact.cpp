@@ -238,7 +238,7 @@ bool Front::closes_fast() const {
 void Front::take_blow(double next, bool ends_step) {
   // At the end of a step others read the velocities right after it, and forces may act then that did not before.
   const bool bounced = blow(ends_step && struck_now_.empty());
-  plan(next, !bounced && struck_now_.empty() ? Effort::quick : Effort::exact, !bounced);
+  plan(next, !bounced);
   for (Touch& touch : touches_) touch.load = 0.0;
   if (bounced) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -268,7 +268,7 @@ bool Front::blow(bool always) {
   free_.clear();
   for (const Body& body : bodies_) free_.push_back({body.velocity, body.angular_velocity});
   const double before = moving_energy();
-  solve_contacts(free_, Effort::exact);
+  solve_contacts(free_);
   if (bounces) give_back(before);
   remember_impulses(0.0, &PointMemory::blow);
   return true;
@@ -325,7 +325,7 @@ void Front::bounce_by(double share) {
     push(row.a, row.gain_a[0]);
     if (row.b != kFloor) push(row.b, row.gain_b[0]);
   }
-  solve_contacts(free_, Effort::exact);
+  solve_contacts(free_);
 }
 
 bool Front::is_hit(const Touch& touch, std::size_t still) const {

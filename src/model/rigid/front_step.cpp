@@ -114,7 +114,7 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
 
 // One part of the step, of at most `time`; returns how long it was.
 double Front::part(double begin, double time, bool may_cut) {
-  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, Effort::exact, false);
+  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, false);
   try_drift(time);
   const double cut = may_cut ? first_impact(time) : time;
   accept_drift(begin, cut, time);
@@ -213,16 +213,15 @@ void Front::slow_ball(std::size_t place, double time) {
 }
 
 // Bodies come with the velocities that they would have without contact.
-void Front::solve_contacts(std::span<const Twist> guess, Effort effort) {
+void Front::solve_contacts(std::span<const Twist> guess) {
   const double unit = std::sqrt(world_.gravity * world_.smallest), tolerance = world_.tolerances.velocity * unit;
-  solver_.solve(bodies_, rows_, guess,
-                {tolerance, world_.tolerances.sweeps, world_.tolerances.lost * unit, world_.stacked ? Effort::stacked : effort});
+  solver_.solve(bodies_, rows_, guess, {tolerance, world_.tolerances.sweeps, world_.tolerances.lost * unit, world_.stacked});
 }
 
-void Front::solve_half_a_kick(double time, Effort effort) {
+void Front::solve_half_a_kick(double time) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
   kick(0.5 * time);
-  solve_contacts(now_, effort);
+  solve_contacts(now_);
   for (std::size_t i = 0; i < bodies_.size(); ++i) members_[i].middle = twist_of(bodies_[i]);
 }
 
@@ -251,13 +250,13 @@ bool Front::bends_otherwise(double time) {
 }
 
 // Half a kick from the velocities of this moment, for a drift of `time`; together with a blow, if there is one.
-void Front::plan(double time, Effort effort, bool with_blow) {
+void Front::plan(double time, bool with_blow) {
   make_rows(&PointMemory::kick, 0.5 * time);
   set_bias(time);
   now_.clear();
   for (const Body& body : bodies_) now_.push_back(twist_of(body));
-  solve_half_a_kick(time, effort);
-  for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time, effort);
+  solve_half_a_kick(time);
+  for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time);
   for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], members_[i].middle);
   remember_impulses(0.5 * time, &PointMemory::kick, with_blow);
   for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
@@ -275,7 +274,7 @@ void Front::leap(double time) {
     set_twist(bodies_[i], members_[i].middle);
   }
   kick(0.5 * (time + next));
-  solve_contacts(guess_, Effort::exact);
+  solve_contacts(guess_);
   remember_impulses(0.5 * (time + next), &PointMemory::kick);
   const double share = time / (time + next);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

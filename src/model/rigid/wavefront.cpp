@@ -269,13 +269,14 @@ void Front::keep_those(std::vector<int>& renamed) {
 
 void Front::order_touches() {
   // By brick, its floor first: along a row the sweeps run with the wave and against it.
-  std::sort(touches_.begin(), touches_.end(), [this](const Touch& l, const Touch& r) {
+  const auto comes_before = [this](const Touch& l, const Touch& r) {
     const BrickId la = bodies_[static_cast<std::size_t>(l.a)].id, ra = bodies_[static_cast<std::size_t>(r.a)].id;
     if (la != ra) return la < ra;
     const BrickId lb = l.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(l.b)].id;
     const BrickId rb = r.b == kFloor ? kNoBrick : bodies_[static_cast<std::size_t>(r.b)].id;
     return lb < rb;
-  });
+  };
+  if (!std::is_sorted(touches_.begin(), touches_.end(), comes_before)) std::sort(touches_.begin(), touches_.end(), comes_before);
 }
 
 void Front::wake_unsupported(double now) {

@@ -84,9 +84,9 @@ class Front final : public Wave {
   void set_bias(double time);
   void kick(double time);
   void slow_ball(std::size_t place, double time);
-  void solve_contacts(std::span<const Twist> guess, Effort effort);
-  void plan(double time, Effort effort, bool with_blow);
-  void solve_half_a_kick(double time, Effort effort);
+  void solve_contacts(std::span<const Twist> guess);
+  void plan(double time, bool with_blow);
+  void solve_half_a_kick(double time);
   static Twist after_the_blow(const Member& member, double time);
   bool bends_otherwise(double time);
   void leap(double time);
