@@ -22,7 +22,7 @@ double drift_of_speed(int count) {
 
 TEST_CASE("rigid: the front is steady from brick 16 to brick 1,000 within 0.1 percent") { CHECK(drift_of_speed(1'000) < 0.001); }
 
-// build/release/test_model --no-skip --test-case="*brick 100,000*": some ten seconds.
+// build/release/test_model --no-skip --test-case="*brick 100*": some ten seconds.
 TEST_CASE("rigid: the front is steady from brick 16 to brick 100,000 within 0.1 percent" * doctest::skip()) {
   CHECK(drift_of_speed(100'000) < 0.001);
 }
