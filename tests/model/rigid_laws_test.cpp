@@ -6,21 +6,6 @@
 using namespace topple;
 using namespace topple::test;
 
-namespace {
-
-/// The same row turned about the origin, then shifted.
-Layout moved(Layout layout, double turn, const Vec3& shift) {
-  const SinCos angle = sin_cos(turn);
-  for (Brick& brick : layout.bricks) {
-    const Vec3 foot = brick.foot;
-    brick.foot = shift + Vec3{angle.cos * foot.x - angle.sin * foot.y, angle.sin * foot.x + angle.cos * foot.y, 0.0};
-    brick.heading += turn;
-  }
-  return layout;
-}
-
-}  // namespace
-
 TEST_CASE("rigid: a row that is turned, or a kilometre away, falls at the same times within 1e-6") {
   const Layout row = straight_row(20, 0.024);
   const RigidRun here = run_rigid(row, 0.0, 1.0);

@@ -92,4 +92,15 @@ inline double front_speed(const RigidRun& run, double pitch) {
 
 inline double degrees(double radians) { return radians * 180.0 / kPi; }
 
+/// Turned about the origin, then shifted [m].
+inline Layout moved(Layout layout, double turn, const Vec3& shift) {
+  const SinCos angle = sin_cos(turn);
+  for (Brick& brick : layout.bricks) {
+    const Vec3 foot = brick.foot;
+    brick.foot = shift + Vec3{angle.cos * foot.x - angle.sin * foot.y, angle.sin * foot.x + angle.cos * foot.y, foot.z};
+    brick.heading += turn;
+  }
+  return layout;
+}
+
 }  // namespace topple::test

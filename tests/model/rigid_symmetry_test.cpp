@@ -6,17 +6,6 @@ using namespace topple::test;
 
 namespace {
 
-/// Turned about the origin, then shifted [m].
-Layout moved(Layout layout, double turn, const Vec3& shift) {
-  const SinCos angle = sin_cos(turn);
-  for (Brick& brick : layout.bricks) {
-    const Vec3 foot = brick.foot;
-    brick.foot = shift + Vec3{angle.cos * foot.x - angle.sin * foot.y, angle.sin * foot.x + angle.cos * foot.y, foot.z};
-    brick.heading += turn;
-  }
-  return layout;
-}
-
 /// About the x axis.
 Layout mirrored(Layout layout) {
   for (Brick& brick : layout.bricks) {
