@@ -94,6 +94,7 @@ class RenderVerb final : public Verb {
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     app.add_flag("--no-sound", silent_, "Without the clicks of the hits");
+    app.add_flag("--forces", forces_, "With what presses on what as arrows at the contacts (hinge and rigid)");
     app.add_flag("--dark", dark_, "On the dark table");
   }
 
@@ -114,7 +115,8 @@ class RenderVerb final : public Verb {
   nlohmann::json order_for(const std::string& format) const {
     const Pair size = read_pair(size_, 'x').value_or(Pair{});
     return {{"format", format}, {"camera", camera_}, {"width", size.first}, {"height", size.second}, {"fps", fps_},
-            {"speed", speed_},  {"from", 0},         {"sound", !silent_},   {"samples", samples_},   {"theme", dark_ ? "dark" : "light"}};
+            {"speed", speed_},  {"from", 0},         {"sound", !silent_},   {"samples", samples_},   {"theme", dark_ ? "dark" : "light"},
+            {"forces", forces_}};
   }
 
   int film(Site site, nlohmann::json order) {
@@ -171,6 +173,7 @@ class RenderVerb final : public Verb {
   double speed_ = 1.0;
   int samples_ = 1;
   bool silent_ = false;
+  bool forces_ = false;
   bool dark_ = false;
 };
 

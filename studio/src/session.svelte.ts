@@ -168,6 +168,7 @@ export class Session {
     if (stage.view) stage.view.drawing = next === 'draw';
     if (next === 'draw') {
       studio.stop();
+      stage.view?.rig.goBack();
       if (!bare && !this.finished && player.recording?.recipe.layoutText && player.recording.recipe.model) this.editRecording();
       else if (!bare) this.showLayout(studio.layout?.recording ?? null);
     } else if (next === 'watch' && this.finished) this.showRun(this.finished);
@@ -202,6 +203,7 @@ export class Session {
     this.mode = 'watch';
     this.screen.clear();
     if (stage.view) stage.view.drawing = false;
+    requestAnimationFrame(() => requestAnimationFrame(() => stage.closeIn())); // once the view has the size in which it is watched
     player.growing = true;
     player.expected = studio.expected + 0.7; // and a second for what still settles
     player.speed = 1;

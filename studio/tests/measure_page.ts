@@ -1,9 +1,10 @@
 /**
- * What the page costs at N bricks: `npx vite-node tests/measure_page.ts 100000 field:100000 ...`: one row, or as many rows side by side as
- * a row has bricks, all pushed at once, run by the program (a wave a row: hundreds of times as much moves). Opening, orbiting, scrubbing and playing: the
- * page's own code in a frame (drawing calls included, the graphics card's work not), all scripts a frame by the sampling profiler; of
- * opening, all that the page's thread does from one frame to the next, by the browser's tracing;
- * the time from frame to frame beside that of a plain InstancedMesh of the same bricks in a canvas of the same size, memory.
+ * What the page costs at N bricks: `npx vite-node tests/measure_page.ts [drawn|undrawn] 100000 field:100000 ...`: one row, or as many rows
+ * side by side as a row has bricks, all pushed at once, run by the program (a wave a row: hundreds of times as much moves). Opening, orbiting,
+ * scrubbing and playing: all that the page's thread does for a frame, by the browser's tracing, how long of that it had a processor, which
+ * part of the scripts are calls of WebGL; the time from frame to frame beside that of a plain InstancedMesh of the same bricks in a canvas of
+ * the same size; memory. Each twice: drawn, here perhaps by the processors that the page's thread wants too, and ('undrawn') with the same
+ * calls and buffers but one brick drawn of them all, so that the page's thread waits for nothing, as beside a graphics card.
  * The view is small, since here it may be drawn by the processor: then frames a second mean nothing but against each other.
  */
 
@@ -16,22 +17,12 @@ import { promisify } from 'node:util';
 import type { Browser, CDPSession, Page } from 'playwright-core';
 import { build } from 'vite';
 import { kHitStep, makeRecording } from './make_recording.ts';
-import { kTicker, watchMainThread } from './main_thread.ts';
+import { counter, kTicker, watchMainThread } from './main_thread.ts';
 import { kProgram, launch, serve } from './page/browser.ts';
 import { repeatRecording } from './repeat_recording.ts';
+import { splitScripts } from './script_split.ts';
 
 const kSize = { width: 720, height: 460 };
-
-/** Watches the page's thread by the sampling profiler. @returns How to end it: all scripts and the collecting of garbage [ms]. */
-async function watchWork(session: CDPSession): Promise<() => Promise<number>> {
-  await session.send('Profiler.enable');
-  await session.send('Profiler.start');
-  return async () => {
-    const { profile } = await session.send('Profiler.stop');
-    const idle = new Set(profile.nodes.filter(({ callFrame }) => ['(idle)', '(program)'].includes(callFrame.functionName)).map(({ id }) => id));
-    return (profile.samples ?? []).reduce((sum, id, i) => sum + (idle.has(id) ? 0 : (profile.timeDeltas?.[i] ?? 0) / 1000), 0);
-  };
-}
 
 /** Resident memory of the page's process and of the one that draws [MB]. */
 async function memory(browser: Browser): Promise<string> {
@@ -46,20 +37,33 @@ async function memory(browser: Browser): Promise<string> {
   return `${Math.round(sizes.get('renderer') ?? 0)} MB the page, ${Math.round(sizes.get('GPU') ?? sizes.get('gpu-process') ?? 0)} MB drawing`;
 }
 
-/** Does something for so many frames. @returns A line of figures. */
-async function measured(page: Page, session: CDPSession, name: string, frames: number, step: (i: number) => Promise<unknown>): Promise<string> {
-  await page.evaluate(() => ((window as never as { topple: { frameCosts: number[] } }).topple.frameCosts.length = 0));
-  const work = await watchWork(session);
-  const drawn = (): Promise<number> => page.evaluate(() => window.topple.frameCosts.length);
-  for (let i = 0; i < frames; i++) {
-    const before = await drawn();
-    await step(i);
-    await page.waitForFunction((n) => window.topple.frameCosts.length > n, before, { timeout: 120000, polling: 'raf' }).catch(() => undefined);
-  }
-  const busy = await work();
-  const costs = (await page.evaluate(() => [...window.topple.frameCosts])).sort((a, b) => a - b);
-  const at = (part: number): string => (costs[Math.floor(part * (costs.length - 1))] ?? NaN).toFixed(2);
-  return `  ${name.padEnd(10)} median ${at(0.5)} ms, 95 % ${at(0.95)} ms of the page's own code in ${costs.length} frames; ${(busy / costs.length).toFixed(2)} ms of scripts in all a frame`;
+const at = (values: number[], part: number): string => (values.sort((a, b) => a - b)[Math.floor(part * (values.length - 1))] ?? NaN).toFixed(1);
+
+interface Phase {
+  browser: Browser;
+  page: Page;
+  session: CDPSession;
+  frames: number;
+}
+
+/** Does something for so many frames, twice: watched by the tracing, then by the profiler, which costs time itself. @returns Lines of figures. */
+async function measured({ browser, page, session, frames }: Phase, name: string, step: (i: number) => Promise<unknown>): Promise<string> {
+  const counts = (): Promise<{ draws: number; bytes: number }> => page.evaluate(() => ({ ...(window as never as { glCounts: { draws: number; bytes: number } }).glCounts }));
+  const before = await counts();
+  const watched = await watchMainThread(browser);
+  for (let i = 0; i < frames; i++) await step(i);
+  const drawn = (await watched()).frames.filter(({ drew }) => drew);
+  const after = await counts();
+  const split = await splitScripts(page, session);
+  for (let i = 0; i < frames; i++) await step(frames + i);
+  const { own, calls, dearest } = await split();
+  const [busy, cpu] = [drawn.map((one) => one.busy), drawn.map((one) => one.cpu)];
+  const [draws, bytes] = [after.draws - before.draws, after.bytes - before.bytes];
+  const parts = dearest.map(([word, took]) => `${word} ${((100 * took) / calls).toFixed(0)} %`).join(', ');
+  return (
+    `  ${name.padEnd(10)} the page's thread a frame: median ${at(busy, 0.5)} ms, 95 % ${at(busy, 0.95)} ms; its processor time ${at(cpu, 0.5)}, ${at(cpu, 0.95)} ms (${drawn.length} frames)\n` +
+    `             ${(draws / drawn.length).toFixed(1)} draws of bricks, ${(bytes / 1000 / drawn.length).toFixed(1)} kB uploaded a frame; calls of WebGL ${((100 * calls) / (own + calls)).toFixed(0)} % of the scripts (${parts})`
+  );
 }
 
 async function plain(browser: Browser, size: { width: number; height: number }, feet: number[], headings: number[], frames: number): Promise<string> {
@@ -96,47 +100,54 @@ async function fieldOf(count: number): Promise<Uint8Array> {
   return bytes;
 }
 
-for (const word of process.argv.slice(2)) {
-  const count = Number(word.replace('field:', ''));
-  if (!count) continue;
+/** Opens, orbits, scrubs and plays. @param drawn Whether all bricks are drawn, or one. */
+async function measurePage(count: number, bytes: Uint8Array, drawn: boolean): Promise<void> {
   const browser = await launch();
-  const frames = count > 300_000 ? 2 : count > 30_000 ? 8 : 20;
-  const bytes = word.startsWith('field:') ? await fieldOf(count) : repeatRecording(makeRecording({ count: 100 }), count, kHitStep);
+  const frames = !drawn ? 60 : count > 300_000 ? 2 : count > 30_000 ? 10 : 40;
   const site = await serve(bytes);
   const page = await browser.newPage({ viewport: kSize, reducedMotion: 'reduce' });
   const session = await page.context().newCDPSession(page);
   await page.addInitScript(kTicker);
+  await page.addInitScript(counter(!drawn));
   const opened = await watchMainThread(browser);
   const began = performance.now();
   await page.goto(`${site.url}?still=off`);
   await page.waitForFunction(() => window.topple?.loaded && window.topple.frameCosts.length > 0, null, { timeout: 300000 });
   const took = (performance.now() - began) / 1000;
   await page.waitForTimeout(500); // the first frames after it belong to it
-  const { frames: busy, long } = await opened();
-  const part = (share: number): string => (busy[Math.floor(share * (busy.length - 1))] ?? NaN).toFixed(2);
-  console.log(`${word}: ${count.toLocaleString('en-GB')} bricks, ${(bytes.length / 1e6).toFixed(0)} MB`);
-  console.log(`  opening    ${took.toFixed(1)} s; the page's thread a frame: median ${part(0.5)} ms, 95 % ${part(0.95)} ms in ${busy.length} frames; tasks over 8 ms: ${long.join(', ') || 'none'} ms`);
+  const { frames: each, long } = await opened();
+  const busy = each.map((one) => one.busy);
+  console.log(drawn ? '  drawn by the processor:' : '  the same calls, one brick of them all drawn:');
+  console.log(`  opening    ${took.toFixed(1)} s; the page's thread a frame: median ${at(busy, 0.5)} ms, 95 % ${at(busy, 0.95)} ms (${busy.length} frames); tasks over 8 ms: ${long.join(', ') || 'none'} ms`);
+  await page.evaluate(() => Object.assign(window, { untick: true }));
   const box = (await page.locator('canvas').first().boundingBox())!;
   await page.waitForTimeout(2000); // what is made once, such as the shaders, is opening's
+  const phase = { browser, page, session, frames };
   await page.mouse.move(box.x + 100, box.y + 100);
   await page.mouse.down();
-  console.log(await measured(page, session, 'orbiting', frames, (i) => page.mouse.move(box.x + 100 + 6 * i, box.y + 100 + (i % 7))));
+  console.log(await measured(phase, 'orbiting', (i) => page.mouse.move(box.x + 100 + 6 * (i % 80), box.y + 100 + (i % 7))));
   await page.mouse.up();
   const strip = (await page.getByRole('slider', { name: 'Time', exact: true }).boundingBox())!;
-  await page.mouse.move(strip.x + 0.2 * strip.width, strip.y + 20);
+  const scrub = (part: number): Promise<void> => page.mouse.move(strip.x + part * strip.width, strip.y + 20);
+  await scrub(0.2);
   await page.mouse.down();
-  console.log(await measured(page, session, 'scrubbing', frames, (i) => page.mouse.move(strip.x + (0.2 + (0.6 * i) / frames) * strip.width, strip.y + 20)));
+  console.log(await measured(phase, 'scrubbing', (i) => scrub(0.2 + (0.3 * i) / frames)));
+  console.log(await measured({ ...phase, frames: Math.min(frames, 12) }, 'far scrubs', (i) => scrub(i % 2 ? 0.95 : 0.05)));
   await page.mouse.up();
   console.log(`  memory     ${await memory(browser)}`);
-  {
-    await page.mouse.down();
-    console.log(await measured(page, session, 'far scrubs', Math.min(frames, 6), (i) => page.mouse.move(strip.x + (i % 2 ? 0.95 : 0.05) * strip.width, strip.y + 20)));
-    await page.mouse.up();
-    await page.locator('canvas').first().focus();
-    await page.keyboard.press('Space');
-    console.log(await measured(page, session, 'playing', frames, () => Promise.resolve()));
-    await page.keyboard.press('Space');
-  }
+  await page.locator('canvas').first().focus();
+  await scrub(0.4);
+  await page.keyboard.press('Space');
+  console.log(await measured({ ...phase, frames: 1 }, 'playing', () => page.waitForTimeout(drawn ? 4000 : 2000)));
+  await page.keyboard.press('Space');
+  await page.keyboard.press('0'); // all of it in sight, as in the other's
+  if (drawn) await compared(page, browser, { width: Math.round(box.width), height: Math.round(box.height) }, Math.min(frames, 8));
+  await site.close();
+  await browser.close();
+}
+
+/** From frame to frame, ours beside the plainest mesh of the same bricks. */
+async function compared(page: Page, browser: Browser, size: { width: number; height: number }, frames: number): Promise<void> {
   const own = await page.evaluate(async (n) => {
     const times: number[] = [];
     let last = NaN;
@@ -152,7 +163,14 @@ for (const word of process.argv.slice(2)) {
   console.log(`  ours       ${own.toFixed(0)} ms from frame to frame`);
   const [feet, headings] = await page.evaluate(() => [Array.from(window.topple.feet), Array.from(window.topple.headings)]);
   await page.close();
-  console.log(await plain(browser, { width: Math.round(box.width), height: Math.round(box.height) }, feet, headings, frames));
-  await site.close();
-  await browser.close();
+  console.log(await plain(browser, size, feet, headings, frames));
+}
+
+const words = process.argv.slice(2);
+for (const word of words) {
+  const count = Number(word.replace('field:', ''));
+  if (!count) continue;
+  const bytes = word.startsWith('field:') ? await fieldOf(count) : repeatRecording(makeRecording({ count: 100 }), count, kHitStep);
+  console.log(`${word}: ${count.toLocaleString('en-GB')} bricks, ${(bytes.length / 1e6).toFixed(0)} MB`);
+  for (const drawn of [true, false]) if (!words.includes(drawn ? 'undrawn' : 'drawn')) await measurePage(count, bytes, drawn);
 }

@@ -2,6 +2,7 @@
 
 import { AudioBufferSource, BufferTarget, CanvasSource, Mp4OutputFormat, Output, WebMOutputFormat, getFirstEncodableAudioCodec, getFirstEncodableVideoCodec } from 'mediabunny';
 import { clicksOf, clickSamples } from '../player/clicks.ts';
+import { ArrowLayer } from './arrow_layer.ts';
 import type { Player } from '../player/player.svelte.ts';
 import type { Stage } from '../player/stage.svelte.ts';
 import type { Recording } from '../recording/types.ts';
@@ -22,6 +23,8 @@ export interface FilmOrder {
   from: number;
   to: number;
   sound: boolean;
+  /** Whether the forces at contacts are shown, of the chosen brick or of all. */
+  forces?: boolean;
   /** Pictures averaged into a frame: 1 is plain, more give soft shadows and depth of field. */
   samples: number;
 }
@@ -49,7 +52,8 @@ export async function makeFilm(player: Player, stage: Stage, order: FilmOrder, w
   if (!videoCodec) throw new Error(`This browser cannot write ${order.format === 'mp4' ? 'MP4' : 'WebM'} films of ${width} × ${height} pixels. Try the other format, or a smaller size.`);
   const target = new BufferTarget();
   const output = new Output({ format: order.format === 'mp4' ? new Mp4OutputFormat() : new WebMOutputFormat(), target });
-  const video = new CanvasSource(view.canvas, { codec: videoCodec, bitrate: Math.max(2e6, 0.1 * width * height * order.fps), keyFrameInterval: 2 });
+  const arrows = order.forces ? new ArrowLayer(player, view, width, height) : null;
+  const video = new CanvasSource(arrows?.sheet ?? view.canvas, { codec: videoCodec, bitrate: Math.max(2e6, 0.1 * width * height * order.fps), keyFrameInterval: 2 });
   output.addVideoTrack(video, { frameRate: order.fps });
   const audio = order.sound ? await soundTrack(output, order) : null;
   await output.start();
@@ -64,10 +68,12 @@ export async function makeFilm(player: Player, stage: Stage, order: FilmOrder, w
     for (let frame = 0; frame < frames; frame++) {
       if (watch.cancelled()) throw new FilmCancelled('The film was cancelled.');
       player.time = Math.min(to, order.from + (frame / order.fps) * order.speed);
+      await arrows?.reach(player.time); // before the picture: it lasts no longer than the browser's turn
       if (order.camera === 'orbit') view.rig.swing(kOrbitRate / order.fps);
       view.changed();
       stage.drawFrame(1 / order.fps);
       if (order.samples > 1) await view.finishStill(order.samples);
+      arrows?.draw(player.time);
       await video.add(frame / order.fps, 1 / order.fps);
       watch.progress(frame + 1, frames);
     }
@@ -76,6 +82,7 @@ export async function makeFilm(player: Player, stage: Stage, order: FilmOrder, w
     await output.cancel().catch(() => undefined);
     throw error;
   } finally {
+    arrows?.close();
     stage.filming = false;
     view.stills = before.stills;
     player.time = before.time;

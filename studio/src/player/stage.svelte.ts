@@ -176,6 +176,12 @@ export class Stage {
     this.wake();
   }
 
+  /** Comes nearer to a run that is small in the view. */
+  closeIn(): void {
+    this.view?.rig.closeIn();
+    this.wake();
+  }
+
   frameAll(cut = false): void {
     if (this.way !== 'top') this.way = 'orbit';
     this.view?.rig.orbit();

@@ -7,6 +7,8 @@ import { defaultDirection, frame, type Aim, type Insets } from './framing.ts';
 export type Way = 'orbit' | 'front' | 'eye' | 'top';
 
 const kFlight = 0.55;
+/** The part of a camera's distance to which coming nearer is worth a flight. */
+const kMuchNearer = 0.8;
 /** How fast the camera closes in on the front [1/s]. */
 const kFollow = 5;
 
@@ -28,6 +30,8 @@ export class Rig {
   /** All bricks are in view and nobody has moved the camera since: it keeps them in view when the page changes its size. */
   private drawing = false;
   private framed = true;
+  /** From where it came nearer by itself. */
+  private left: Aim | null = null;
   private flight: { from: Aim; to: Aim; part: number } | null = null;
 
   /**
@@ -51,6 +55,7 @@ export class Rig {
     this.controls.addEventListener('start', () => {
       this.flight = null;
       this.framed = false;
+      this.left = null;
     });
   }
 
@@ -85,6 +90,7 @@ export class Rig {
 
   private goTo(aim: Aim, cut = false): void {
     this.framed = false;
+    this.left = null;
     const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
     this.flight = { from, to: aim, part: cut || this.still ? 1 : 0 };
     if (this.flight.part === 1) this.advance(0);
@@ -151,6 +157,26 @@ export class Rig {
     const forward = top ? new Vector3(0, 1e-3, -1) : this.defaultForward();
     this.goTo(frame(this.points, forward, this.camera, this.insets), cut);
     this.framed = true;
+  }
+
+  /** Nearer from the same side, if all bricks are in sight and would be much larger: what is drawn needs room, what falls is looked at. */
+  closeIn(): void {
+    if (this.framed || this.way !== 'orbit') return;
+    this.camera.updateMatrixWorld();
+    const seen = this.points.every((point) => {
+      const at = point.clone().project(this.camera);
+      return Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && at.z < 1;
+    });
+    const aim = frame(this.points, this.controls.target.clone().sub(this.camera.position), this.camera, this.insets);
+    if (!seen || aim.position.distanceTo(aim.target) > kMuchNearer * this.camera.position.distanceTo(aim.target)) return;
+    const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
+    this.goTo(aim);
+    this.left = from;
+  }
+
+  /** To where the camera was before it came nearer by itself, unless somebody has moved it since. */
+  goBack(): void {
+    if (this.left) this.goTo(this.left);
   }
 
   defaultForward(): Vector3 {

@@ -168,12 +168,12 @@ export class View {
     return way > 0 && Number.isFinite(way) ? ray.at(way, new Vector3()).add(new Vector3(...this.playhead.origin)) : null;
   }
 
-  /** A place [m, in the layout's axes] in CSS pixels from the view's upper left corner; null behind the camera. */
-  pixelOf(place: Vector3): { x: number; y: number } | null {
+  /** A place [m, in the layout's axes] in CSS pixels from the view's upper left corner, or in a picture of another size; null behind the camera. */
+  pixelOf(place: Vector3, width = this.canvas.clientWidth, height = this.canvas.clientHeight): { x: number; y: number } | null {
     this.rig.camera.updateMatrixWorld();
     const at = place.clone().sub(new Vector3(...this.playhead.origin)).project(this.rig.camera);
     if (at.z > 1) return null;
-    return { x: (0.5 + 0.5 * at.x) * this.canvas.clientWidth, y: (0.5 - 0.5 * at.y) * this.canvas.clientHeight };
+    return { x: (0.5 + 0.5 * at.x) * width, y: (0.5 - 0.5 * at.y) * height };
   }
 
   /** Something moved: the next frame is drawn anew. */

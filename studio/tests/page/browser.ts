@@ -65,11 +65,11 @@ async function listening(server: Server): Promise<Site> {
   };
 }
 
-/** Debian's Chromium (or TOPPLE_CHROMIUM), drawing in software. */
-export function launch(webGl = true): Promise<Browser> {
+/** Debian's Chromium (or TOPPLE_CHROMIUM), drawing in software. @param more Its flags. */
+export function launch(webGl = true, more: string[] = []): Promise<Browser> {
   const flags = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio'];
   const drawing = webGl ? ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-3d-apis', '--disable-webgl', '--disable-webgl2'];
-  return chromium.launch({ executablePath: process.env.TOPPLE_CHROMIUM ?? '/usr/bin/chromium', args: [...flags, ...drawing] });
+  return chromium.launch({ executablePath: process.env.TOPPLE_CHROMIUM ?? '/usr/bin/chromium', args: [...flags, ...drawing, ...more] });
 }
 
 /**

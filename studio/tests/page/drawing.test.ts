@@ -339,6 +339,12 @@ describe('the page', () => {
     await one.keyboard.press('Space');
     await one.evaluate(() => window.topple.seek(1));
     await look('watch');
+    await one.keyboard.press('f');
+    await one.locator('.legend').getByText('brick on brick').waitFor();
+    await look('forces');
+    await one.evaluate(() => window.topple.choose(9));
+    await look('forces of one');
+    await one.keyboard.press('f');
     await one.getByRole('button', { name: 'Compare' }).click();
     await one.getByRole('article', { name: 'Rigid' }).getByText('Hash').waitFor({ timeout: 50000 });
     await look('compare');

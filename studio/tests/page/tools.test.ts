@@ -133,12 +133,32 @@ test('the push can be changed in the panel', async () => {
   expect(await page.evaluate(() => window.topple.doubts.join())).toMatch(/brick 0/); // nothing reaches it any more
 });
 
+/** A film of one picture: how many of its pixels have the blue of the floor's arrows, which nothing else here has. */
+function filmColors(forces: boolean): Promise<number> {
+  return page.evaluate(async (shown) => {
+    const order = { format: 'webm', camera: 'front', width: 640, height: 360, fps: 10, speed: 1, from: 0.3, to: 0.4, sound: false, samples: 1, forces: shown } as const;
+    const video = document.createElement('video');
+    video.muted = true;
+    video.src = URL.createObjectURL(new Blob([new Uint8Array(await window.topple.film(order))], { type: 'video/webm' }));
+    await new Promise((ready, bad) => { video.onloadeddata = ready; video.onerror = bad; });
+    video.currentTime = 0.01;
+    await new Promise((ready) => (video.onseeked = ready));
+    const sheet = new OffscreenCanvas(640, 360).getContext('2d')!;
+    sheet.drawImage(video, 0, 0);
+    const { data } = sheet.getImageData(0, 0, 640, 360);
+    let found = 0;
+    for (let i = 0; i < data.length; i += 4) if (data[i + 2] - data[i] > 30) found++;
+    return found;
+  }, forces);
+}
+
 test('forces at contacts are arrows: of all that moves, of the chosen brick, and a sentence where the model has none', async () => {
   await tool('Row');
   await drag([-150, 0], [150, 0]);
   await settled();
   await page.keyboard.press('Space');
   await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  if (await page.evaluate(() => window.topple.playing)) await page.keyboard.press('Space');
   await page.evaluate(() => window.topple.seek(0.3));
   await page.keyboard.press('f');
   const legend = page.locator('.legend');
@@ -146,6 +166,10 @@ test('forces at contacts are arrows: of all that moves, of the chosen brick, and
   const arrows = async (): Promise<number> => (await page.locator('path.head').evaluateAll((all) => all.map((one) => one.getAttribute('d') ?? '').join(''))).split('M').length - 1;
   const all = await arrows();
   expect(all).toBeGreaterThan(3);
+  // In a film they are drawn into the pictures.
+  const [bare, arrowed] = [await filmColors(false), await filmColors(true)];
+  expect(bare).toBeLessThan(5);
+  expect(arrowed).toBeGreaterThan(bare + 10);
   await page.evaluate(() => window.topple.choose(1));
   await expect.poll(arrows).toBeLessThan(all);
   expect(await arrows()).toBeGreaterThan(0);
@@ -161,7 +185,9 @@ test('forces at contacts are arrows: of all that moves, of the chosen brick, and
   await page.keyboard.press('Space');
   await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
   await page.keyboard.press('f');
-  await expect.poll(() => legend.innerText()).toBe('Pivot hands hits on and knows no forces between bricks that lean; hinge and rigid do.');
+  const none = 'Pivot hands hits on and knows no forces between bricks that lean; hinge and rigid do.';
+  await expect.poll(() => legend.innerText()).toBe(none);
+  await expect(filmColors(true)).rejects.toThrow(none);
   await page.keyboard.press('f');
 });
 
