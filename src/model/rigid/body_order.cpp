@@ -6,7 +6,10 @@ namespace topple::rigid {
 
 namespace {
 constexpr int kIdle = -1, kWaiting = -2;
-}
+// What is no wider than this is a row: its last block is that of the brick so far from the tail, as a share of all.
+constexpr int kNarrow = 2;
+constexpr double kRoot = 0.7;
+}  // namespace
 
 std::span<const int> BodyOrder::near(int body) const {
   const auto at = static_cast<std::size_t>(body);
@@ -53,7 +56,7 @@ void BodyOrder::find(std::span<const ContactRow> rows, std::span<const Body> bod
     int from = kIdle;
     for (int body = 0; body < static_cast<int>(bodies.size()); ++body) {
       if (number_[static_cast<std::size_t>(body)] != kWaiting) continue;
-      if (from == kIdle || near(body).size() < near(from).size()) from = body;
+      if (from == kIdle || near(body).size() <= near(from).size()) from = body;
     }
     if (from == kIdle) break;
     take(from);
@@ -68,12 +71,25 @@ void BodyOrder::find(std::span<const ContactRow> rows, std::span<const Body> bod
     }
   }
   std::reverse(order_.begin(), order_.end());
+  if (give_numbers() > kNarrow) return;
+  // Head and tail are eliminated from either end: what changes at one leaves the other as it was.
+  const auto root = static_cast<std::ptrdiff_t>(kRoot * static_cast<double>(order_.size()));
+  std::reverse(order_.begin() + root, order_.end());
+  give_numbers();
+}
+
+// Returns how far before itself any body is coupled to another.
+int BodyOrder::give_numbers() {
   for (std::size_t i = 0; i < order_.size(); ++i) number_[static_cast<std::size_t>(order_[i])] = static_cast<int>(i);
   first_.resize(order_.size());
+  int farthest = 0;
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    first_[i] = static_cast<int>(i);
+    const int own = static_cast<int>(i);
+    first_[i] = own;
     for (const int other : near(order_[i])) first_[i] = std::min(first_[i], number(other));
+    farthest = std::max(farthest, own - first_[i]);
   }
+  return farthest;
 }
 
 }  // namespace topple::rigid

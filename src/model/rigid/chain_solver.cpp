@@ -11,16 +11,49 @@ constexpr double kWorst = 0.7;  // States that are wrong by this share of the wo
 // The way that a point slides may be wrong by so many tolerances: it is found anew in the next solution.
 constexpr double kTurned = 30.0;
 
-// Adds to block and right-hand side what the impulses k slip + rest of a point, by rows of the slip of one body, do to another.
-void add_outer(Block<6>& out, const std::array<Velocity, 3>& of, const std::array<Velocity, 3>& pull) {
-  double* m = out.m.data();
-  for (std::size_t i = 0; i < 6; ++i, m += 6) {
-    for (std::size_t j = 0; j < 6; ++j) m[j] += of[0][i] * pull[0][j] + of[1][i] * pull[1][j] + of[2][i] * pull[2][j];
+// Three rows of six: what an impulse along x, y, z is, by the velocities of a brick.
+using WideRows = std::array<Wide, 3>;
+
+// The columns of a brick whose point lies at `arm`, from the three of the point.
+WideRows with_arm(const std::array<Vec3, 3>& stiffness, const Vec3& arm) {
+  WideRows out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& k = stiffness[i];
+    const Vec3 turning = cross(arm, k);
+    out[i] = {Two{k.x, k.y}, Two{k.z, turning.x}, Two{turning.y, turning.z}};
+  }
+  return out;
+}
+
+// Adds the rows of a brick whose point lies at `arm`; or takes them off.
+template <bool kAdd>
+void put(BrickBlock& block, const WideRows& rows, const Vec3& arm) {
+  const Two x{arm.x, arm.x}, y{arm.y, arm.y}, z{arm.z, arm.z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Two about_x = y * rows[2][k] - z * rows[1][k], about_y = z * rows[0][k] - x * rows[2][k],
+              about_z = x * rows[1][k] - y * rows[0][k];
+    if constexpr (kAdd) {
+      block.row[0][k] += rows[0][k];
+      block.row[1][k] += rows[1][k];
+      block.row[2][k] += rows[2][k];
+      block.row[3][k] += about_x;
+      block.row[4][k] += about_y;
+      block.row[5][k] += about_z;
+    } else {
+      block.row[0][k] -= rows[0][k];
+      block.row[1][k] -= rows[1][k];
+      block.row[2][k] -= rows[2][k];
+      block.row[3][k] -= about_x;
+      block.row[4][k] -= about_y;
+      block.row[5][k] -= about_z;
+    }
   }
 }
 
-void subtract(Velocity& out, const std::array<Velocity, 3>& of, const Framed& rest) {
-  for (std::size_t i = 0; i < 6; ++i) out[i] -= of[0][i] * rest[0] + of[1][i] * rest[1] + of[2][i] * rest[2];
+void add_impulse(Velocity& right, const Vec3& impulse, const Vec3& arm) {
+  const Vec3 turning = cross(arm, impulse);
+  right = {right[0] + impulse.x, right[1] + impulse.y, right[2] + impulse.z,
+           right[3] + turning.x, right[4] + turning.y, right[5] + turning.z};
 }
 
 }  // namespace
@@ -48,15 +81,10 @@ void ChainSolver::assume(std::span<const ContactRow> rows, std::span<const Veloc
     as = {};
     as.a = order_.number(row.a);
     as.b = order_.number(row.b);
+    if (as.a >= 0 && as.b >= 0) as.entry = matrix_.entry(std::max(as.a, as.b), std::min(as.a, as.b));
     as.state = row.state;
     if (!as.state.slides) continue;
-    const Velocity& a = guess[static_cast<std::size_t>(row.a)];
-    double along = row.bias[1] + product_of(row.of_a[1], a), across = row.bias[2] + product_of(row.of_a[2], a);
-    if (row.b != kFloor) {
-      const Velocity& b = guess[static_cast<std::size_t>(row.b)];
-      along += product_of(row.of_b[1], b);
-      across += product_of(row.of_b[2], b);
-    }
+    const auto [normal, along, across] = slip_of(row, guess);
     const double speed = std::sqrt(along * along + across * across), limit = row.friction * (row.base + row.impulse[0]);
     const bool slow = row.tangent_stiffness * speed <= limit || speed == 0.0;
     const double rubbed = std::sqrt(row.impulse[1] * row.impulse[1] + row.impulse[2] * row.impulse[2]);
@@ -73,18 +101,16 @@ void ChainSolver::assume(std::span<const ContactRow> rows, std::span<const Veloc
 }
 
 void ChainSolver::assemble(std::span<const ContactRow> rows, std::span<const Velocity> free) {
-  matrix_.shape(order_.first());
   for (std::size_t i = 0; i < mass_.size(); ++i) {
     const double mass = mass_[i];
     const Mat3& inertia = inertia_[i];
-    auto& m = matrix_.diagonal(i).m;
-    m[0] = m[7] = m[14] = mass;
-    m[21] = inertia.r0.x;
-    m[22] = m[27] = inertia.r0.y;
-    m[23] = m[33] = inertia.r0.z;
-    m[28] = inertia.r1.y;
-    m[29] = m[34] = inertia.r1.z;
-    m[35] = inertia.r2.z;
+    BrickBlock& m = matrix_.diagonal(static_cast<int>(i));
+    m.row[0] = {Two{mass, 0.0}, Two{}, Two{}};
+    m.row[1] = {Two{0.0, mass}, Two{}, Two{}};
+    m.row[2] = {Two{}, Two{mass, 0.0}, Two{}};
+    m.row[3] = {Two{}, Two{0.0, inertia.r0.x}, Two{inertia.r0.y, inertia.r0.z}};
+    m.row[4] = {Two{}, Two{0.0, inertia.r1.x}, Two{inertia.r1.y, inertia.r1.z}};
+    m.row[5] = {Two{}, Two{0.0, inertia.r2.x}, Two{inertia.r2.y, inertia.r2.z}};
     const Velocity& v = free[static_cast<std::size_t>(order_.bodies()[i])];
     const Vec3 l = inertia * Vec3{v[3], v[4], v[5]};
     right_[i] = {mass * v[0], mass * v[1], mass * v[2], l.x, l.y, l.z};
@@ -117,36 +143,32 @@ ChainSolver::Law ChainSolver::law_of(const ContactRow& row, const Assumed& as) {
 
 // Adds a law, or the difference of two, to the system of equations.
 void ChainSolver::add(const ContactRow& row, const Assumed& as, const Law& law) {
-  const auto pull_of = [&law](const std::array<Velocity, 3>& of) {
-    std::array<Velocity, 3> pull;
-    for (std::size_t j = 0; j < 6; ++j) {
-      pull[0][j] = law.nn * of[0][j];
-      pull[1][j] = law.an * of[0][j] + law.aa * of[1][j] + law.ac * of[2][j];
-      pull[2][j] = law.cn * of[0][j] + law.ac * of[1][j] + law.cc * of[2][j];
-    }
-    return pull;
-  };
-  const Framed rest{law.nn * row.bias[0], law.rest_along + law.an * row.bias[0] + law.aa * row.bias[1] + law.ac * row.bias[2],
-                    law.rest_across + law.cn * row.bias[0] + law.ac * row.bias[1] + law.cc * row.bias[2]};
-  const auto i = static_cast<std::size_t>(as.a), j = static_cast<std::size_t>(as.b);
+  const Vec3 &n = row.normal, &s = row.along, &t = row.across;
+  // By the slip along n, s and t.
+  const Vec3 by_n = law.nn * n + law.an * s + law.cn * t, by_s = law.aa * s + law.ac * t, by_t = law.ac * s + law.cc * t;
+  const std::array<Vec3, 3> stiffness{by_n.x * n + by_s.x * s + by_t.x * t, by_n.y * n + by_s.y * s + by_t.y * t,
+                                      by_n.z * n + by_s.z * s + by_t.z * t};
+  const Vec3 rest = row.bias[0] * by_n + row.bias[1] * by_s + row.bias[2] * by_t + law.rest_along * s + law.rest_across * t;
+  WideRows of_a, of_b;
   if (as.a >= 0) {
-    const std::array<Velocity, 3> pull = pull_of(row.of_a);
-    add_outer(matrix_.diagonal(i), row.of_a, pull);
-    subtract(right_[i], row.of_a, rest);
-    if (as.b >= 0) add_outer(j > i ? matrix_.lower(j, i) : matrix_.upper(j, i), row.of_b, pull);
+    matrix_.touch(as.a);
+    of_a = with_arm(stiffness, row.arm_a);
+    put<true>(matrix_.diagonal(as.a), of_a, row.arm_a);
+    add_impulse(right_[static_cast<std::size_t>(as.a)], -rest, row.arm_a);
   }
-  if (as.b >= 0) {
-    const std::array<Velocity, 3> pull = pull_of(row.of_b);
-    add_outer(matrix_.diagonal(j), row.of_b, pull);
-    subtract(right_[j], row.of_b, rest);
-    if (as.a >= 0) add_outer(i > j ? matrix_.lower(i, j) : matrix_.upper(i, j), row.of_a, pull);
-  }
+  if (as.b < 0) return;
+  matrix_.touch(as.b);
+  of_b = with_arm(stiffness, row.arm_b);
+  put<true>(matrix_.diagonal(as.b), of_b, row.arm_b);
+  add_impulse(right_[static_cast<std::size_t>(as.b)], rest, row.arm_b);
+  if (as.a < 0) return;
+  put<false>(as.a > as.b ? matrix_.lower(as.entry) : matrix_.upper(as.entry), of_b, row.arm_a);
+  put<false>(as.a > as.b ? matrix_.upper(as.entry) : matrix_.lower(as.entry), of_a, row.arm_b);
 }
 
-// Velocities that follow; bodies before `from` and all that touches them alone are as they were the last time.
-bool ChainSolver::solve_system(std::size_t from) {
-  if (!matrix_.factorise(from)) return false;
-  matrix_.solve(right_, from, velocity_);
+// Velocities that follow.
+bool ChainSolver::solve_system() {
+  if (!matrix_.solve(right_, velocity_)) return false;
   double sum = 0.0;
   for (const Velocity& v : velocity_) sum += v[0] + v[1] + v[2] + v[3] + v[4] + v[5];
   return std::isfinite(sum);
@@ -176,14 +198,16 @@ void ChainSolver::settle_row(const ContactRow& row, const Framed& slip, double t
     as.impulse[2] = -row.tangent_stiffness * across;
   }
   const double speed = std::sqrt(along * along + across * across);
-  const bool beyond = row.tangent_stiffness * speed > limit;
+  // Of an open point it is not known how hard it will be pressed, but that its own mass has to be stopped.
+  const bool open = !as.state.pressed;
+  as.should_limit = open ? row.friction * (row.base + row.normal_mass * std::max(closing, 0.0)) : limit;
+  const bool beyond = (open ? row.mass : row.tangent_stiffness) * speed > as.should_limit;
   const bool back = as.state.slides && forward < 0.0;
-  // What slides goes on sliding, however slowly, until it would slide back.
-  as.should.slides = (beyond || (as.state.slides && speed > 0.0)) && !back;
+  // What slides goes on sliding, however slowly, until it would slide back; and what would have been pulled when it stuck slides.
+  as.should.slides = (beyond || ((as.state.slides || (as.pulled && open)) && speed > 0.0)) && !back;
   if (as.should.slides) {
     const double pull_along = as.impulse[1] - row.mass * along, pull_across = as.impulse[2] - row.mass * across;
     const double size = std::sqrt(pull_along * pull_along + pull_across * pull_across);
-    as.should_limit = as.state.pressed ? limit : row.friction * (row.base + row.normal_mass * std::max(closing, 0.0));
     as.should_along = -pull_along / size;
     as.should_across = -pull_across / size;
     as.should_drag = std::min(as.should_limit / speed, row.tangent_stiffness);
@@ -205,15 +229,8 @@ bool ChainSolver::settle(std::span<const ContactRow> rows, double tolerance) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ContactRow& row = rows[k];
     Assumed& as = assumed_[k];
-    Framed slip = row.bias;
-    if (as.a >= 0) {
-      const Velocity& v = velocity_[static_cast<std::size_t>(as.a)];
-      for (std::size_t i = 0; i < 3; ++i) slip[i] += product_of(row.of_a[i], v);
-    }
-    if (as.b >= 0) {
-      const Velocity& v = velocity_[static_cast<std::size_t>(as.b)];
-      for (std::size_t i = 0; i < 3; ++i) slip[i] += product_of(row.of_b[i], v);
-    }
+    const auto of = [this](int number) { return number < 0 ? nullptr : &velocity_[static_cast<std::size_t>(number)]; };
+    const Framed slip = slip_of(row, of(as.a), of(as.b));
     settle_row(row, slip, tolerance, as);
     if (as.wrong == 0.0 && !as.turned) continue;
     settled = false;
@@ -233,9 +250,7 @@ void ChainSolver::keep_best(std::span<const ContactRow> rows) {
 }
 
 // Changes the states that are wrong by more than others of their bodies (all at once they would overshoot), and the ways that have turned.
-// Returns the first body of which the equations have changed.
-std::size_t ChainSolver::change(std::span<const ContactRow> rows) {
-  std::size_t from = most_wrong_.size();
+void ChainSolver::change(std::span<const ContactRow> rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ContactRow& row = rows[k];
     Assumed& as = assumed_[k];
@@ -243,6 +258,7 @@ std::size_t ChainSolver::change(std::span<const ContactRow> rows) {
     if (as.wrong > 0.0) {
       const auto most = [this](int number) { return number < 0 ? 0.0 : most_wrong_[static_cast<std::size_t>(number)]; };
       if (as.wrong < kWorst * std::max(most(as.a), most(as.b))) continue;
+      as.pulled = as.pulled || (as.state.pressed && !as.state.slides && !as.should.pressed);
     }
     as.coupled =
         as.state.slides && as.should.slides && as.wrong == 0.0 && as.way_along * as.should_along + as.way_across * as.should_across > 0.0;
@@ -256,26 +272,23 @@ std::size_t ChainSolver::change(std::span<const ContactRow> rows) {
     add(row, as,
         {as.law.nn - before.nn, as.law.an - before.an, as.law.cn - before.cn, as.law.aa - before.aa, as.law.ac - before.ac,
          as.law.cc - before.cc, as.law.rest_along - before.rest_along, as.law.rest_across - before.rest_across});
-    const int low = as.a < 0 ? as.b : as.b < 0 ? as.a : std::min(as.a, as.b);
-    from = std::min(from, static_cast<std::size_t>(low));
   }
-  return from;
 }
 
 bool ChainSolver::solve(std::span<ContactRow> rows, std::span<const Velocity> guess, double tolerance, int most,
                         std::span<Velocity> velocity) {
+  matrix_.shape(order_);
   assume(rows, guess);
   assemble(rows, velocity);
   least_wrong_ = 1e300;
   best_.clear();
-  std::size_t from = 0;
   bool settled = false;
   for (int i = 0; i < most && !settled; ++i) {
-    if (!solve_system(from)) return false;
+    if (!solve_system()) return false;
     settled = settle(rows, tolerance);
     if (settled) break;
     keep_best(rows);
-    from = change(rows);
+    change(rows);
   }
   for (std::size_t k = 0; k < rows.size(); ++k) {
     rows[k].impulse = settled ? assumed_[k].impulse : best_[k];

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "model/rigid/block_envelope.h"
 #include "model/rigid/body_order.h"
+#include "model/rigid/brick_matrix.h"
 #include "model/rigid/contact_row.h"
 
 namespace topple::rigid {
@@ -33,7 +33,8 @@ class ChainSolver {
   };
   /// A row's state and the way it slides, as the system of equations has it.
   struct Assumed {
-    int a = -1, b = -1;  // Its bodies' numbers.
+    int a = -1, b = -1;     // Its bodies' numbers.
+    std::size_t entry = 0;  // Of both, in the matrix.
     ContactState state;
     double way_along = 0.0, way_across = 0.0;  // Unit, the way it slides.
     bool coupled = true;                       // Its friction follows its normal impulse; else it is...
@@ -44,6 +45,7 @@ class ChainSolver {
     ContactState should;
     double should_along = 0.0, should_across = 0.0;
     double should_limit = 0.0, should_drag = 0.0;
+    bool pulled = false;  // It stuck, and had to be pulled for that.
     double wrong = 0.0;   // By how much the state is wrong [m/s].
     bool turned = false;  // It slides another way than assumed.
   };
@@ -51,16 +53,16 @@ class ChainSolver {
   void assemble(std::span<const ContactRow> rows, std::span<const Velocity> free);
   static Law law_of(const ContactRow& row, const Assumed& as);
   void add(const ContactRow& row, const Assumed& as, const Law& law);
-  bool solve_system(std::size_t from);
+  bool solve_system();
   static void settle_row(const ContactRow& row, const Framed& slip, double tolerance, Assumed& as);
   bool settle(std::span<const ContactRow> rows, double tolerance);
   void keep_best(std::span<const ContactRow> rows);
-  std::size_t change(std::span<const ContactRow> rows);
+  void change(std::span<const ContactRow> rows);
 
   BodyOrder order_;
   std::vector<double> mass_;   // Of each number [kg].
   std::vector<Mat3> inertia_;  // [kg m^2]
-  BlockEnvelope<6> matrix_;
+  BrickMatrix matrix_;
   std::vector<Velocity> right_, velocity_;
   std::vector<Assumed> assumed_;
   std::vector<Framed> best_;

@@ -5,21 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace topple::rigid {
 
 namespace {
 
 // Axes of the separating axis test: 0-2 faces of a, 3-5 faces of b, 6-14 edges of a (slow) crossed with edges of b (fast).
-constexpr int kFirstEdgeAxis = 6;
+constexpr int kFirstEdgeAxis = 6, kAxes = 15;
 
 // Everything the axes share. [Gottschalk1996] section 5: T and R in a's axes, here with |R| beside R.
 struct BoxPair {
   Vec3 apart;  // From a's centre to b's.
   std::array<Vec3, 3> a_axis, b_axis;
   std::array<double, 3> a_half{}, b_half{};
-  std::array<double, 3> a_apart{}, b_apart{};  // `apart` along the axes of a and of b.
-  std::array<std::array<double, 3>, 3> r{};    // a_axis[i] . b_axis[j]
+  std::array<double, 3> a_apart{}, b_apart{};   // `apart` along the axes of a and of b.
+  std::array<std::array<double, 3>, 3> r{};     // a_axis[i] . b_axis[j]
+  std::array<std::array<double, 3>, 3> size{};  // |r|
 };
 
 BoxPair pair_up(const Body& a, const Body& b) {
@@ -35,35 +37,38 @@ BoxPair pair_up(const Body& a, const Body& b) {
     p.b_apart[k] = dot(p.apart, p.b_axis[k]);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) p.r[i][j] = dot(p.a_axis[i], p.b_axis[j]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      p.r[i][j] = dot(p.a_axis[i], p.b_axis[j]);
+      p.size[i][j] = std::abs(p.r[i][j]);
+    }
   }
   return p;
 }
 
-double face_separation(const BoxPair& p, int axis) {
-  const auto k = static_cast<std::size_t>(axis % 3);
-  if (axis < 3) {
-    return std::abs(p.a_apart[k]) - p.a_half[k] - std::abs(p.r[k][0]) * p.b_half[0] - std::abs(p.r[k][1]) * p.b_half[1] -
-           std::abs(p.r[k][2]) * p.b_half[2];
-  }
-  return std::abs(p.b_apart[k]) - p.b_half[k] - std::abs(p.r[0][k]) * p.a_half[0] - std::abs(p.r[1][k]) * p.a_half[1] -
-         std::abs(p.r[2][k]) * p.a_half[2];
+inline double face_separation(const BoxPair& p, std::size_t axis) {
+  const std::size_t k = axis % 3;
+  if (axis < 3)
+    return std::abs(p.a_apart[k]) - p.a_half[k] - p.size[k][0] * p.b_half[0] - p.size[k][1] * p.b_half[1] - p.size[k][2] * p.b_half[2];
+  return std::abs(p.b_apart[k]) - p.b_half[k] - p.size[0][k] * p.a_half[0] - p.size[1][k] * p.a_half[1] - p.size[2][k] * p.a_half[2];
 }
 
 // Minus infinity where the two edges are so nearly parallel that a face axis does as well, or where the boxes overlap along the axis by so
 // much more than `needed` (at most zero) that it does not matter how much.
-double edge_separation(const BoxPair& p, int axis, double needed) {
-  const auto i = static_cast<std::size_t>((axis - kFirstEdgeAxis) / 3);
-  const auto j = static_cast<std::size_t>((axis - kFirstEdgeAxis) % 3);
+inline double edge_separation(const BoxPair& p, std::size_t axis, double needed) {
+  const std::size_t i = (axis - kFirstEdgeAxis) / 3, j = (axis - kFirstEdgeAxis) % 3;
   const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
   const double distance = std::abs(p.a_apart[i2] * p.r[i1][j] - p.a_apart[i1] * p.r[i2][j]);
-  const double reach = p.a_half[i1] * std::abs(p.r[i2][j]) + p.a_half[i2] * std::abs(p.r[i1][j]) + p.b_half[j1] * std::abs(p.r[i][j2]) +
-                       p.b_half[j2] * std::abs(p.r[i][j1]);
+  const double reach =
+      p.a_half[i1] * p.size[i2][j] + p.a_half[i2] * p.size[i1][j] + p.b_half[j1] * p.size[i][j2] + p.b_half[j2] * p.size[i][j1];
   // The length of the axis, by which this is divided, is at most one.
   if (distance - reach < needed) return -std::numeric_limits<double>::infinity();
   const double sine_squared = 1.0 - p.r[i][j] * p.r[i][j];
   if (sine_squared < 1e-6) return -std::numeric_limits<double>::infinity();
   return (distance - reach) / std::sqrt(sine_squared);
+}
+
+inline double separation_on(const BoxPair& p, std::size_t axis, double needed) {
+  return axis < kFirstEdgeAxis ? face_separation(p, axis) : edge_separation(p, axis, needed);
 }
 
 // A corner of the polygon that is left of a face: its place in the axes of the other face, and how far in front of that it is.
@@ -190,12 +195,45 @@ void edge_point(const BoxPair& p, const Body& a, const Body& b, int axis, double
   out.points[0] = {0.5 * (pa + pb), separation, (4U << 16) + (static_cast<std::uint32_t>(axis) << 8) + corner};
 }
 
-struct BestAxis {
+// The axis along which two boxes are farthest apart, or overlap least. A face is kept, and preferred to an edge, unless another axis is
+// clearly better: flips of the normal cost warm starts.
+struct AxisSearch {
+  const BoxPair& pair;
+  double margin = 0.0;
+  int kept = -1;  // The axis of the last time.
+  double kept_bonus = 0.0, edge_malus = 0.0;
   int axis = -1;
   double separation = -std::numeric_limits<double>::infinity();
+  double score = separation;
+
+  // Whether it parts them.
+  template <std::size_t kAxis>
+  bool look() {
+    const double found = separation_on(pair, kAxis, std::min(score, 0.0));
+    const double rated = found + (static_cast<int>(kAxis) == kept ? kept_bonus : 0.0) - (kAxis >= kFirstEdgeAxis ? edge_malus : 0.0);
+    const bool parts = found > margin;
+    if (!parts && rated <= score) return false;
+    score = rated;
+    axis = static_cast<int>(kAxis);
+    separation = found;
+    return parts;
+  }
+  template <std::size_t... kEach>
+  bool look_along(std::index_sequence<kEach...> /*axes*/) {
+    return (look<kEach>() || ...);
+  }
 };
 
 }  // namespace
+
+void Manifold::take(const Manifold& from) {
+  normal = from.normal;
+  reference = from.reference;
+  axis = from.axis;
+  parted = from.parted;
+  count = from.count;
+  std::copy_n(from.points.begin(), count, points.begin());
+}
 
 void touch_floor(const Body& a, double margin, Manifold& out) {
   if (a.round) return touch_floor_with_ball(a, margin, out);
@@ -221,32 +259,16 @@ void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out) {
   out.count = 0;
   int& axis = out.axis;
   const BoxPair p = pair_up(a, b);
-  const auto separation_on = [&p](int k, double needed) {
-    return k < kFirstEdgeAxis ? face_separation(p, k) : edge_separation(p, k, needed);
-  };
   if (axis >= 0) {
-    out.parted = separation_on(axis, -std::numeric_limits<double>::infinity());
+    out.parted = separation_on(p, static_cast<std::size_t>(axis), -std::numeric_limits<double>::infinity());
     if (out.parted > margin) return;
   }
-  // A face is kept, and preferred to an edge, unless another axis is clearly better: flips of the normal cost warm starts.
   const double thinnest = 2.0 * std::min(std::min({a.half.x, a.half.y, a.half.z}), std::min({b.half.x, b.half.y, b.half.z}));
-  BestAxis best;
-  double best_score = best.separation;
-  for (int k = 0; k < 15; ++k) {
-    const double separation = separation_on(k, std::min(best_score, 0.0));
-    if (separation > margin) {
-      axis = k;
-      out.parted = separation;
-      return;
-    }
-    const double score = separation + (k == axis ? 1e-3 * thinnest : 0.0) - (k >= kFirstEdgeAxis ? 1e-2 * thinnest : 0.0);
-    if (score > best_score) {
-      best_score = score;
-      best = {k, separation};
-    }
-  }
+  AxisSearch best{.pair = p, .margin = margin, .kept = axis, .kept_bonus = 1e-3 * thinnest, .edge_malus = 1e-2 * thinnest};
+  const bool parted = best.look_along(std::make_index_sequence<kAxes>());
   axis = best.axis;
   out.parted = best.separation;
+  if (parted) return;
   if (axis >= kFirstEdgeAxis) {
     edge_point(p, a, b, axis, best.separation, out);
   } else if (axis < 3) {

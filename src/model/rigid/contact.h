@@ -26,6 +26,9 @@ struct Manifold {
   double parted = 0.0;  ///< Where there is no point: how far apart they are along that axis [m].
   int count = 0;
   std::array<TouchPoint, 8> points;
+
+  /// Becomes the same, without what lies behind the last point.
+  void take(const Manifold& from);
 };
 
 /// Points of a box (or a ball) and the floor z = 0 no farther than `margin` [m] apart; the normal is up and b is the floor.

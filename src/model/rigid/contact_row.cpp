@@ -17,14 +17,15 @@ Vec3 tangent_of(const Vec3& normal, const Vec3& heading) {
   return (1.0 / norm(side)) * cross(side, normal);
 }
 
-void couple(const Body& body, const Vec3& arm, const std::array<Vec3, 3>& directions, double sign, std::array<Velocity, 3>& of,
-            std::array<Velocity, 3>& gain) {
+Wide wide_of(const Vec3& linear, const Vec3& spin) { return {Two{linear.x, linear.y}, Two{linear.z, spin.x}, Two{spin.y, spin.z}}; }
+
+void couple(const Body& body, const Vec3& arm, const std::array<Vec3, 3>& directions, double sign, std::array<Wide, 3>& of,
+            std::array<Wide, 3>& gain) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 push = sign * directions[k];
     const Vec3 twist = cross(arm, push);
-    of[k] = {push.x, push.y, push.z, twist.x, twist.y, twist.z};
-    const Vec3 speed = body.inverse_mass * push, spin = body.inverse_inertia * twist;
-    gain[k] = {speed.x, speed.y, speed.z, spin.x, spin.y, spin.z};
+    of[k] = wide_of(push, twist);
+    gain[k] = wide_of(body.inverse_mass * push, body.inverse_inertia * twist);
   }
 }
 

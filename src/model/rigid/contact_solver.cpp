@@ -8,7 +8,7 @@ namespace {
 
 // Along a wave: so many sweeps, then at most so many systems of equations, so many times over.
 constexpr int kSweeps = 4;
-constexpr int kSystems = 8;
+constexpr int kSystems = 12;
 constexpr int kRounds = 4;
 // In a stack, which settles brick by brick when it is put down: so many systems, and so many more a body.
 constexpr int kStackSystems = 20;

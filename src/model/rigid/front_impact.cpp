@@ -176,15 +176,19 @@ void Front::accept_drift(double begin, double cut, double whole) {
   ledger_.push_work += work;
   for (Touch& touch : touches_) {
     if (cut < whole) find_next(bodies_, touch);
-    before_.now = touch.now;
-    before_.memory = touch.memory;
+    if (touch.next.count == 0) {
+      touch.now.take(touch.next);
+      continue;
+    }
+    before_.now.take(touch.now);
+    std::copy_n(touch.memory.begin(), touch.now.count, before_.memory.begin());
     for (int k = 0; k < touch.next.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const PointMemory* memory = recall(before_, touch.next.points[at], recall_within(touch));
       touch.memory[at] = memory != nullptr ? *memory : PointMemory{};
       touch.memory[at].fresh = false;
     }
-    touch.now = touch.next;
+    touch.now.take(touch.next);
   }
 }
 
@@ -317,13 +321,13 @@ void Front::bounce_by(double share) {
     row.state = compression_[k].state;
     row.base = (1.0 + share * touches_[static_cast<std::size_t>(row.touch)].restitution) * compression_[k].impulse[0];
     row.impulse = {};
-    const auto push = [&](int place, const Velocity& gain) {
+    const auto push = [&](int place, const Vec3& impulse, const Vec3& arm) {
       Body& body = bodies_[static_cast<std::size_t>(place)];
-      body.velocity = body.velocity + row.base * Vec3{gain[0], gain[1], gain[2]};
-      body.angular_velocity = body.angular_velocity + row.base * Vec3{gain[3], gain[4], gain[5]};
+      body.velocity = body.velocity + body.inverse_mass * impulse;
+      body.angular_velocity = body.angular_velocity + body.inverse_inertia * cross(arm, impulse);
     };
-    push(row.a, row.gain_a[0]);
-    if (row.b != kFloor) push(row.b, row.gain_b[0]);
+    push(row.a, row.base * row.normal, row.arm_a);
+    if (row.b != kFloor) push(row.b, -row.base * row.normal, row.arm_b);
   }
   solve_contacts(free_);
 }

@@ -31,6 +31,8 @@ std::array<double, 6> times(const std::array<double, 10>& m, std::span<const dou
           m[3] * v[3] + m[5] * v[4] + m[6] * v[5]};
 }
 
+double part_of(const Wide& v, std::size_t k) { return v[k / 2][k % 2]; }
+
 double product(std::span<const double> a, std::span<const double> b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -43,22 +45,22 @@ std::span<const double> six(std::span<const double> all, int number) {
 std::span<double> six(std::span<double> all, int number) { return all.subspan(kWide * static_cast<std::size_t>(number), kWide); }
 
 // Sum over one brick's side of a point.
-void add_motion(const std::array<Velocity, 3>& of, std::span<const double> v, Vec3& w) {
+void add_motion(const std::array<Wide, 3>& of, std::span<const double> v, Vec3& w) {
   for (std::size_t k = 0; k < kWide; ++k) {
-    w.x += of[0][k] * v[k];
-    w.y += of[1][k] * v[k];
-    w.z += of[2][k] * v[k];
+    w.x += part_of(of[0], k) * v[k];
+    w.y += part_of(of[1], k) * v[k];
+    w.z += part_of(of[2], k) * v[k];
   }
 }
 
 // block += left^T D right, D the point's 3 x 3 stiffness; the block's row is that of `left`.
-void add_stiffness(const std::array<Velocity, 3>& left, const std::array<Velocity, 3>& right, const std::array<double, 4>& d,
-                   Block6& block) {
+void add_stiffness(const std::array<Wide, 3>& left, const std::array<Wide, 3>& right, const std::array<double, 4>& d, Block6& block) {
   for (std::size_t c = 0; c < kWide; ++c) {
-    const double n = d[0] * right[0][c];
-    const double s = d[1] * right[1][c] + d[2] * right[2][c];
-    const double t = d[2] * right[1][c] + d[3] * right[2][c];
-    for (std::size_t r = 0; r < kWide; ++r) block[kWide * c + r] += left[0][r] * n + left[1][r] * s + left[2][r] * t;
+    const double n = d[0] * part_of(right[0], c);
+    const double s = d[1] * part_of(right[1], c) + d[2] * part_of(right[2], c);
+    const double t = d[2] * part_of(right[1], c) + d[3] * part_of(right[2], c);
+    for (std::size_t r = 0; r < kWide; ++r)
+      block[kWide * c + r] += part_of(left[0], r) * n + part_of(left[1], r) * s + part_of(left[2], r) * t;
   }
 }
 
@@ -124,8 +126,9 @@ void NewtonSolver::gradient(std::span<const ContactRow> rows, std::span<const do
     const std::array<double, 6> momentum = times(mass_[i], change);
     std::copy(momentum.begin(), momentum.end(), six(out, static_cast<int>(i)).begin());
   }
-  const auto pull = [](const std::array<Velocity, 3>& of, const Framed& impulse, std::span<double> g) {
-    for (std::size_t k = 0; k < kWide; ++k) g[k] -= of[0][k] * impulse[0] + of[1][k] * impulse[1] + of[2][k] * impulse[2];
+  const auto pull = [](const std::array<Wide, 3>& of, const Framed& impulse, std::span<double> g) {
+    for (std::size_t k = 0; k < kWide; ++k)
+      g[k] -= part_of(of[0], k) * impulse[0] + part_of(of[1], k) * impulse[1] + part_of(of[2], k) * impulse[2];
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ContactRow& row = rows[i];

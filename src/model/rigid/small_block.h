@@ -8,6 +8,12 @@
 
 namespace topple::rigid {
 
+/// Two numbers in one register; every operation has the bits that it has with one.
+using Two = double __attribute__((vector_size(16)));
+
+/// Six numbers of a brick, in lanes: along x, y, z, about x, y, z.
+using Wide = std::array<Two, 3>;
+
 template <int N>
 struct Block {
   std::array<double, std::size_t{N} * std::size_t{N}> m{};
@@ -22,6 +28,14 @@ struct Block {
 
 template <int N>
 using Column = std::array<double, static_cast<std::size_t>(N)>;
+
+inline Wide wide(const Column<6>& v) { return {Two{v[0], v[1]}, Two{v[2], v[3]}, Two{v[4], v[5]}}; }
+inline Column<6> narrow(const Wide& v) { return {v[0][0], v[0][1], v[1][0], v[1][1], v[2][0], v[2][1]}; }
+inline Two both(double value) { return Two{value, value}; }
+inline double product_of(const Wide& a, const Wide& b) {
+  const Two sum = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return sum[0] + sum[1];
+}
 
 template <int N>
 inline Block<N> product(const Block<N>& a, const Block<N>& b) {
@@ -75,40 +89,6 @@ inline bool invert(Block<3>& a) {
            s * c1, s * (m[0] * m[8] - m[2] * m[6]), s * (m[2] * m[3] - m[0] * m[5]),
            s * c2, s * (m[1] * m[6] - m[0] * m[7]), s * (m[0] * m[4] - m[1] * m[3])};
   a = out;
-  return true;
-}
-
-/// By its four quarters [p q; r s], the first quarter first: of the mass and stiffness of a body that is the part of its translations.
-inline bool invert(Block<6>& a) {
-  Block<3> p, q, r, s;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      p.at(i, j) = a.at(i, j);
-      q.at(i, j) = a.at(i, j + 3);
-      r.at(i, j) = a.at(i + 3, j);
-      s.at(i, j) = a.at(i + 3, j + 3);
-    }
-  }
-  if (!invert(p)) return false;
-  const Block<3> rp = product(r, p), pq = product(p, q);
-  subtract_product(s, rp, q);
-  if (!invert(s)) return false;
-  const Block<3> srp = product(s, rp);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      a.at(i + 3, j) = -srp.at(i, j);
-      a.at(i + 3, j + 3) = s.at(i, j);
-    }
-  }
-  const Block<3> pqs = product(pq, s);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      double corner = p.at(i, j);
-      for (int k = 0; k < 3; ++k) corner += pq.at(i, k) * srp.at(k, j);
-      a.at(i, j) = corner;
-      a.at(i, j + 3) = -pqs.at(i, j);
-    }
-  }
   return true;
 }
 

@@ -8,16 +8,6 @@ namespace topple::rigid {
 
 namespace {
 
-Framed slip_of(const ContactRow& row, std::span<const Velocity> velocity) {
-  const Velocity& a = velocity[static_cast<std::size_t>(row.a)];
-  Framed slip = row.bias;
-  for (std::size_t k = 0; k < 3; ++k) slip[k] += product_of(row.of_a[k], a);
-  if (row.b == kFloor) return slip;
-  const Velocity& b = velocity[static_cast<std::size_t>(row.b)];
-  for (std::size_t k = 0; k < 3; ++k) slip[k] += product_of(row.of_b[k], b);
-  return slip;
-}
-
 // One point: normal first, then friction with the limit that follows. Returns the largest change of its velocity.
 double solve_row(ContactRow& row, std::span<Velocity> velocity) {
   const Framed slip = slip_of(row, velocity);
