@@ -30,7 +30,8 @@ void add_row(std::vector<ContactRow>& rows, std::span<const Body> bodies, int a,
   row.arm_a = point - bodies[static_cast<std::size_t>(a)].position;
   const Body* other = b == kFloor ? nullptr : &bodies[static_cast<std::size_t>(b)];
   if (other != nullptr) row.arm_b = point - other->position;
-  set_frame(row, bodies[static_cast<std::size_t>(a)], other);
+  set_directions(row, bodies[static_cast<std::size_t>(a)]);
+  set_couplings(row, bodies[static_cast<std::size_t>(a)], other);
   row.normal_stiffness = row.normal_mass / 1e-4;
   row.tangent_stiffness = row.mass / 1e-4;
   row.friction = friction;

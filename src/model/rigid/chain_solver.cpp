@@ -87,7 +87,7 @@ void ChainSolver::assume(std::span<const ContactRow> rows, std::span<const Veloc
     const auto [normal, along, across] = slip_of(row, guess);
     const double speed = std::sqrt(along * along + across * across), limit = row.friction * (row.base + row.impulse[0]);
     const bool slow = row.tangent_stiffness * speed <= limit || speed == 0.0;
-    const double rubbed = std::sqrt(row.impulse[1] * row.impulse[1] + row.impulse[2] * row.impulse[2]);
+    const double rubbed = slow ? std::sqrt(row.impulse[1] * row.impulse[1] + row.impulse[2] * row.impulse[2]) : 0.0;
     if (slow && rubbed == 0.0) {
       as.state.slides = false;
       continue;
@@ -205,20 +205,19 @@ void ChainSolver::settle_row(const ContactRow& row, const Framed& slip, double t
   const bool back = as.state.slides && forward < 0.0;
   // What slides goes on sliding, however slowly, until it would slide back; and what would have been pulled when it stuck slides.
   as.should.slides = (beyond || ((as.state.slides || (as.pulled && open)) && speed > 0.0)) && !back;
-  if (as.should.slides) {
-    const double pull_along = as.impulse[1] - row.mass * along, pull_across = as.impulse[2] - row.mass * across;
-    const double size = std::sqrt(pull_along * pull_along + pull_across * pull_across);
-    as.should_along = -pull_along / size;
-    as.should_across = -pull_across / size;
-    as.should_drag = std::min(as.should_limit / speed, row.tangent_stiffness);
-  }
   if (as.should.slides != as.state.slides) {
     as.wrong = std::max(as.wrong, as.state.slides ? speed : (row.tangent_stiffness * speed - limit) / row.mass);
   } else if (as.should.slides && beyond) {
-    const double off_along = -limit / speed * along - as.impulse[1], off_across = -limit / speed * across - as.impulse[2];
-    const double allowed = kTurned * tolerance * row.mass;
+    const double off_along = limit * along + speed * as.impulse[1], off_across = limit * across + speed * as.impulse[2];
+    const double allowed = kTurned * tolerance * row.mass * speed;
     as.turned = off_along * off_along + off_across * off_across > allowed * allowed;
   }
+  if (!as.should.slides || (as.wrong == 0.0 && !as.turned)) return;
+  const double pull_along = as.impulse[1] - row.mass * along, pull_across = as.impulse[2] - row.mass * across;
+  const double size = std::sqrt(pull_along * pull_along + pull_across * pull_across);
+  as.should_along = -pull_along / size;
+  as.should_across = -pull_across / size;
+  as.should_drag = std::min(as.should_limit / speed, row.tangent_stiffness);
 }
 
 // Impulses that follow from how the points slip, the states that they should be in, and by how much the assumed ones are wrong. Returns

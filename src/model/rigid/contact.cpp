@@ -67,26 +67,36 @@ inline double edge_separation(const BoxPair& p, std::size_t axis, double needed)
   return (distance - reach) / std::sqrt(sine_squared);
 }
 
+// Along a face of one of them alone, as face_separation() has it.
+double face_separation(const Body& a, const Body& b, int axis) {
+  const Body &own = axis < 3 ? a : b, &other = axis < 3 ? b : a;
+  const Vec3 normal = column(own.axes, axis % 3);
+  return std::abs(dot(b.position - a.position, normal)) - component(own.half, axis % 3) -
+         std::abs(dot(normal, column(other.axes, 0))) * other.half.x - std::abs(dot(normal, column(other.axes, 1))) * other.half.y -
+         std::abs(dot(normal, column(other.axes, 2))) * other.half.z;
+}
+
 inline double separation_on(const BoxPair& p, std::size_t axis, double needed) {
   return axis < kFirstEdgeAxis ? face_separation(p, axis) : edge_separation(p, axis, needed);
 }
 
 // A corner of the polygon that is left of a face: its place in the axes of the other face, and how far in front of that it is.
 struct ClipVertex {
-  double u = 0.0, v = 0.0, separation = 0.0;
-  std::uint32_t tag = 0;
+  double u, v, separation;
+  std::uint32_t tag;
 };
 
 struct Polygon {
   int count = 0;
-  std::array<ClipVertex, 12> vertices;
+  std::array<ClipVertex, 12> vertices;  // Only `count` of them have been written.
   void add(const ClipVertex& v) { vertices[static_cast<std::size_t>(count++)] = v; }
 };
 
 // Sutherland and Hodgman: keeps what lies on the inner side, sign * coordinate <= limit. Returns whether there was anything to cut off;
 // else `out` is not written.
-bool clip(const Polygon& in, double ClipVertex::* coordinate, double sign, double limit, std::uint32_t plane, Polygon& out) {
-  const auto beyond = [&](const ClipVertex& vertex) { return sign * vertex.*coordinate - limit; };
+template <double ClipVertex::* kCoordinate>
+bool clip(const Polygon& in, double sign, double limit, std::uint32_t plane, Polygon& out) {
+  const auto beyond = [&](const ClipVertex& vertex) { return sign * vertex.*kCoordinate - limit; };
   const auto begin = in.vertices.begin(), end = begin + in.count;
   if (std::all_of(begin, end, [&](const ClipVertex& vertex) { return beyond(vertex) <= 0.0; })) return false;
   out.count = 0;
@@ -140,16 +150,13 @@ void face_points(const Body& base, const Body& other, int face_axis, const Vec3&
   add_corner(1.0, -1.0, 3);
   Polygon* in = &front;
   Polygon* result = &back;
-  const auto cut = [&](double ClipVertex::* coordinate, double sign, double limit, std::uint32_t plane) {
-    if (clip(*in, coordinate, sign, limit, plane, *result)) std::swap(in, result);
-  };
   // A hair's breadth wider, so that bricks of one width keep their corners instead of cutting them at random.
   const double hair = 1e-7 * base.radius;
   const double limit_u = component(base.half, u) + hair, limit_v = component(base.half, v) + hair;
-  cut(&ClipVertex::u, 1.0, limit_u, 1);
-  cut(&ClipVertex::u, -1.0, limit_u, 2);
-  cut(&ClipVertex::v, 1.0, limit_v, 3);
-  cut(&ClipVertex::v, -1.0, limit_v, 4);
+  if (clip<&ClipVertex::u>(*in, 1.0, limit_u, 1, *result)) std::swap(in, result);
+  if (clip<&ClipVertex::u>(*in, -1.0, limit_u, 2, *result)) std::swap(in, result);
+  if (clip<&ClipVertex::v>(*in, 1.0, limit_v, 3, *result)) std::swap(in, result);
+  if (clip<&ClipVertex::v>(*in, -1.0, limit_v, 4, *result)) std::swap(in, result);
   const std::uint32_t code = (out.reference == Reference::a ? 1U << 16 : 2U << 16) + (face.number << 8);
   out.count = 0;
   for (int i = 0; i < in->count && out.count < 8; ++i) {
@@ -258,8 +265,12 @@ void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out) {
   if (a.round || b.round) return touch_ball(a, b, margin, out);
   out.count = 0;
   int& axis = out.axis;
+  if (axis >= 0 && axis < kFirstEdgeAxis) {
+    out.parted = face_separation(a, b, axis);
+    if (out.parted > margin) return;
+  }
   const BoxPair p = pair_up(a, b);
-  if (axis >= 0) {
+  if (axis >= kFirstEdgeAxis) {
     out.parted = separation_on(p, static_cast<std::size_t>(axis), -std::numeric_limits<double>::infinity());
     if (out.parted > margin) return;
   }

@@ -31,9 +31,12 @@ void couple(const Body& body, const Vec3& arm, const std::array<Vec3, 3>& direct
 
 }  // namespace
 
-void set_frame(ContactRow& row, const Body& a, const Body* b) {
+void set_directions(ContactRow& row, const Body& a) {
   row.along = tangent_of(row.normal, column(a.axes, 0));
   row.across = cross(row.normal, row.along);
+}
+
+void set_couplings(ContactRow& row, const Body& a, const Body* b) {
   const std::array<Vec3, 3> directions{row.normal, row.along, row.across};
   couple(a, row.arm_a, directions, 1.0, row.of_a, row.gain_a);
   if (b != nullptr) couple(*b, row.arm_b, directions, -1.0, row.of_b, row.gain_b);

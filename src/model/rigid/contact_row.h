@@ -41,8 +41,10 @@ struct ContactRow {
   Vec3 arm_a, arm_b;                                   ///< From the centres of mass to the point [m].
 };
 
-/// Sets the frame and all that follows from it, the normal and the arms; `b` is null for the floor.
-void set_frame(ContactRow& row, const Body& a, const Body* b);
+/// Sets the directions across the normal, alike for all points of a pair.
+void set_directions(ContactRow& row, const Body& a);
+/// Sets all that follows from the directions and the arms; `b` is null for the floor.
+void set_couplings(ContactRow& row, const Body& a, const Body* b);
 /// Sets what a sweep needs, once the stiffnesses are known.
 void set_steps(ContactRow& row);
 

@@ -136,7 +136,7 @@ double Front::part(double begin, double time, bool may_cut) {
 
 // The points that take part; `time` is how long their forces act, for a first guess.
 void Front::make_rows(ContactState PointMemory::* guess, double time) {
-  rows_.clear();
+  std::size_t count = 0;  // Rows of the last time are written over: they are long.
   const double creep = kCreep * std::sqrt(world_.gravity * world_.smallest);
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     const Touch& touch = touches_[i];
@@ -147,7 +147,9 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
       const auto at = static_cast<std::size_t>(k);
       const PointMemory& memory = touch.memory[at];
       if (!memory.active) continue;
-      ContactRow& row = rows_.emplace_back();
+      if (count == rows_.size()) rows_.emplace_back();
+      ContactRow& row = rows_[count++];
+      row.base = 0.0;
       row.a = touch.a;
       row.b = touch.b;
       row.touch = static_cast<int>(i);
@@ -155,7 +157,13 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
       row.normal = touch.now.normal;
       row.arm_a = touch.now.points[at].position - a.position;
       if (b != nullptr) row.arm_b = touch.now.points[at].position - b->position;
-      set_frame(row, a, b);
+      if (count > 1 && rows_[count - 2].touch == row.touch) {
+        row.along = rows_[count - 2].along;
+        row.across = rows_[count - 2].across;
+      } else {
+        set_directions(row, a);
+      }
+      set_couplings(row, a, b);
       row.normal_stiffness = row.normal_mass / kCompliance;
       row.tangent_stiffness = row.mass / kCompliance;
       const double carries = world_.stacked ? 0.0 : time * memory.normal_force;
@@ -170,6 +178,7 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
                      time * dot(row.across, memory.friction_force)};
     }
   }
+  rows_.resize(count);
 }
 
 // After a drift for `time` no active point will be closer than touching.
