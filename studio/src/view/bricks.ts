@@ -9,6 +9,9 @@ import { brickDepthMaterial, brickMaterial } from './brick_material.ts';
 
 /** Bricks between two that moved that are uploaded with them rather than starting another run. */
 const kRunGap = 64;
+/** Where more have moved they are not sorted but looked for in blocks. */
+const kFew = 4096;
+const kBlock = 512;
 
 export class BrickMesh {
   readonly mesh: Mesh;
@@ -18,6 +21,8 @@ export class BrickMesh {
   private readonly position: InstancedBufferAttribute;
   private readonly turn: InstancedBufferAttribute;
   private readonly color: InstancedBufferAttribute;
+  /** All poses are sent with the next frame. */
+  private whole = false;
 
   constructor(
     private readonly recording: Recording,
@@ -82,6 +87,7 @@ export class BrickMesh {
   /** A playhead over the same arrays takes the place of the one before. */
   follow(playhead: Playhead): void {
     this.playhead = playhead;
+    this.whole = true;
     for (const attribute of [this.position, this.turn]) {
       attribute.clearUpdateRanges();
       attribute.needsUpdate = true;
@@ -92,33 +98,38 @@ export class BrickMesh {
   update(): void {
     const { touched, touchedCount } = this.playhead;
     if (touchedCount === 0) return;
-    const moved = touched.subarray(0, touchedCount);
-    if (touchedCount < 4096) moved.sort();
-    this.upload(this.position, 3, moved);
-    this.upload(this.turn, 4, moved);
-  }
-
-  private upload(attribute: InstancedBufferAttribute, width: number, moved: Uint32Array): void {
-    attribute.needsUpdate = true;
-    if (moved.length >= 4096) {
-      attribute.clearUpdateRanges();
+    if (this.whole) {
+      this.whole = false; // no ranges: all of it
       return;
     }
-    let first = moved[0];
-    let last = first;
-    for (const brick of moved) {
-      if (brick > last + kRunGap) {
-        attribute.addUpdateRange(first * width, (last - first + 1) * width);
-        first = brick;
-      }
-      last = brick;
+    const runs = runsOf(touched.subarray(0, touchedCount), this.recording.bricks.count);
+    for (const [attribute, width] of [[this.position, 3], [this.turn, 4]] as const) {
+      for (const { first, last } of runs) attribute.addUpdateRange(first * width, (last - first + 1) * width);
+      attribute.needsUpdate = true;
     }
-    attribute.addUpdateRange(first * width, (last - first + 1) * width);
   }
 
   dispose(): void {
     this.geometry.dispose();
   }
+}
+
+/** What is uploaded of the bricks that moved, so that a jump in a long row does not send the whole of it. @param moved In any order; it is sorted if it is short. */
+export function runsOf(moved: Uint32Array, count: number): { first: number; last: number }[] {
+  const runs: { first: number; last: number }[] = [];
+  const add = (first: number, last: number): void => {
+    const before = runs.at(-1);
+    if (before && first <= before.last + kRunGap) before.last = last;
+    else runs.push({ first, last });
+  };
+  if (moved.length < kFew) {
+    for (const brick of moved.sort()) add(brick, brick);
+    return runs;
+  }
+  const blocks = new Uint8Array(Math.ceil(count / kBlock));
+  for (const brick of moved) blocks[Math.floor(brick / kBlock)] = 1;
+  blocks.forEach((hit, block) => hit && add(block * kBlock, Math.min(count, (block + 1) * kBlock) - 1));
+  return runs;
 }
 
 /** Spreads consecutive numbers over 32 bits, the same everywhere. */

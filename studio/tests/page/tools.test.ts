@@ -191,6 +191,20 @@ test('forces at contacts are arrows: of all that moves, of the chosen brick, and
   await page.keyboard.press('f');
 });
 
+test('on Topple the camera comes nearer to a run that is small in the view, and for drawing it goes back', async () => {
+  await tool('Row');
+  await drag([-100, 0], [100, 0]);
+  await settled();
+  const breadth = (): Promise<number> =>
+    page.evaluate(() => window.topple.placeOf(Math.max(0, window.topple.bricks - 1))!.x - window.topple.placeOf(0)!.x);
+  const before = await breadth();
+  await page.keyboard.press('Space');
+  await expect.poll(breadth).toBeGreaterThan(1.5 * before);
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  await expect.poll(async () => Math.abs((await breadth()) / before - 1)).toBeLessThan(0.02);
+});
+
 test('slow motion goes round the cursor, and back to what it was', async () => {
   await tool('Row');
   await drag([-250, 0], [250, 0]);
