@@ -103,6 +103,7 @@ export class Session {
     this.frameNext = true;
     this.player.failure = '';
     this.setMode('draw', true);
+    this.studio.tool = 'select';
     this.studio.open(text, promised);
   }
 
@@ -120,7 +121,10 @@ export class Session {
   async beginDrawing(): Promise<void> {
     this.setMode('draw', true);
     this.studio.restore();
-    if (this.studio.empty) this.showLayout(null);
+    if (this.studio.empty) {
+      this.studio.tool = 'curve'; // "Draw a line": at once
+      this.showLayout(null);
+    }
     await this.studio.engine.ready.catch((error: Error) => (this.noEngine = error.message));
   }
 

@@ -68,6 +68,41 @@ async function axe(of: Page): Promise<string[]> {
   return found.filter((one) => one.impact === 'serious' || one.impact === 'critical').map((one) => `${one.id}: ${one.nodes[0].html.slice(0, 160)}`);
 }
 
+describe('an empty page', () => {
+  test('"Draw a line": a drag at once is one, with no tool chosen before', async () => {
+    const other = await browser.newContext({ viewport: { width: 1100, height: 640 }, reducedMotion: 'reduce' });
+    const one = listen(await other.newPage());
+    await one.goto(`${site.url}?still=off`);
+    await one.waitForFunction(() => window.topple?.mode === 'draw');
+    await one.mouse.move(300, 300);
+    await one.mouse.down();
+    await one.mouse.move(600, 320, { steps: 6 });
+    await one.mouse.up();
+    await expect.poll(() => one.evaluate(() => window.topple.drawn)).toBeGreaterThan(5);
+    // What somebody has of a colour is kept beside the layout, and said where it is too little.
+    await one.getByLabel('Red available').fill('3');
+    await one.getByLabel('Red available').press('Enter');
+    await expect.poll(() => one.getByRole('status').filter({ hasText: 'missing' }).innerText()).toMatch(/^Red: \d+ used, 3 available\. \d+ are missing\.$/);
+    await one.reload();
+    await one.waitForFunction(() => window.topple?.drawn > 5);
+    expect(await one.getByLabel('Red available').inputValue()).toBe('3');
+    await one.getByLabel('Red available').fill('');
+    await one.getByLabel('Red available').press('Enter');
+    await expect.poll(() => one.getByText('missing').count()).toBe(0);
+    await other.close();
+  });
+
+  test('three scenes can be opened at once', async () => {
+    const other = await browser.newContext({ viewport: { width: 900, height: 600 }, reducedMotion: 'reduce' });
+    const one = listen(await other.newPage());
+    await one.goto(`${site.url}?still=off`);
+    await one.getByRole('button', { name: 'A spiral', exact: true }).click();
+    await expect.poll(() => one.evaluate(() => window.topple.drawn)).toBeGreaterThan(50);
+    expect(await one.getByRole('button', { name: 'Select', exact: true }).getAttribute('aria-pressed')).toBe('true');
+    await other.close();
+  });
+});
+
 describe('a new user', () => {
   test('draws an S by mouse: bricks stand along it, one is pushed', async () => {
     await tool('S');
