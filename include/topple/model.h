@@ -41,12 +41,18 @@ struct Kink {
   HingedState before, after;
 };
 
-/// A brick that came to rest after it moved as another one did, only at another time; none of it has been told by kinks.
+/// A brick that came to rest after it moved as another one did, only at another time and elsewhere; none of it has been told.
 struct Echo {
   BrickId brick = kNoBrick;
   BrickId like = kNoBrick;
   double start = 0.0;       ///< When it began to move [s].
   double like_start = 0.0;  ///< When the other one did [s].
+};
+
+/// Where a brick was that has moved for some steps without being in their frames. The first of a brick is the moment before it moved.
+struct UnseenMotion {
+  double time = 0.0;  ///< [s]
+  FreeMotion motion;
 };
 
 struct Energy {
@@ -61,8 +67,10 @@ struct Frame {
   double time = 0.0;  ///< [s]
   std::vector<HingedMotion> hinged;
   std::vector<FreeMotion> free;
-  std::vector<Kink> kinks;   ///< In the order of their times for each brick.
-  std::vector<Echo> echoes;  ///< Only where the frame is curved.
+  std::vector<Kink> kinks;  ///< In the order of their times for each brick.
+  std::vector<Echo> echoes;
+  std::vector<BrickId> echoed;       ///< Bricks that later echoes will be like.
+  std::vector<UnseenMotion> unseen;  ///< In the order of their times for each brick, all before `time`.
   Energy energy;
   /// Set by the model: the kinks tell the whole motion. From one kink of a hinged brick to its next, or to its state in `hinged`, its angle
   /// is the quintic Hermite polynomial of both ends, within a ten-thousandth of its thickness at any corner.
@@ -112,13 +120,14 @@ struct Status {
 class Model {
  public:
   virtual ~Model() = default;
-  virtual Status step() = 0;                              ///< Advances by exactly one time step.
-  virtual std::int64_t step_count() const = 0;            ///< Time is step_count x time_step.
-  virtual double time_step() const = 0;                   ///< [s]
-  virtual void read(Frame& out) const = 0;                ///< What moved in the last step, and the energy.
-  virtual std::span<const Event> events() const = 0;      ///< Of the last step, in the order of their times.
-  virtual std::span<const Contact> contacts() const = 0;  ///< At the end of the last step; empty where the model has no forces.
-  virtual std::uint64_t hash() const = 0;                 ///< Chained over all steps: ids, poses, velocities.
+  virtual Status step() = 0;                          ///< Advances by exactly one time step.
+  virtual std::int64_t step_count() const = 0;        ///< Time is step_count x time_step.
+  virtual double time_step() const = 0;               ///< [s]
+  virtual void read(Frame& out) const = 0;            ///< What moved in the last step, and the energy.
+  virtual std::span<const Event> events() const = 0;  ///< Of the last step, in the order of their times.
+  virtual std::span<const Contact> contacts()
+      const = 0;                           ///< At the end of the last step, of what was computed in it; none where the model has no forces.
+  virtual std::uint64_t hash() const = 0;  ///< Chained over all steps: ids, poses, velocities.
 };
 
 // ---- Level 1: the report's model ----
@@ -164,6 +173,7 @@ struct RigidConfig {
   /// No brick stands or rests: every one is stepped from the beginning on, and the run never ends by itself. For tests of structures.
   bool every_brick_moves = false;
   // affects speed only
+  bool repeats = true;         ///< In an even row, what follows a strike as it followed the one before is not computed again.
   Crew* crew = nullptr;        ///< Null: the calling thread alone. A run sets it.
   Profile* profile = nullptr;  ///< Null: nobody asks. A run sets it.
 };

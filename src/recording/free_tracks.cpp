@@ -92,6 +92,20 @@ void FreeTracks::take(const Frame& frame, double time_step, const Layout& layout
   }
 }
 
+void FreeTracks::take_unseen(const Frame& frame, const Layout& layout, double tolerance, TrackStore& out) {
+  place_.resize(frame.unseen.empty() ? place_.size() : layout.bricks.size(), kClosed);
+  for (const UnseenMotion& unseen : frame.unseen) {
+    const std::int32_t place = place_[at(unseen.motion.brick)];
+    if (place == kClosed) {
+      open(unseen.motion.brick, unseen.time, layout, tolerance, out);
+    } else {
+      FreeFit& fit = fits_[static_cast<std::size_t>(place)];
+      fit.add(unseen.time, unseen.motion);
+      fit.store_finished(out);
+    }
+  }
+}
+
 // Of a track that is closed: what is finished of it is stored, its buffers go to the next.
 void FreeTracks::close(std::int32_t& place, TrackStore& out) {
   FreeFit& fit = fits_[static_cast<std::size_t>(place)];

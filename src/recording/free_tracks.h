@@ -16,6 +16,8 @@ class FreeTracks {
   /// `tolerance`: how far a corner may be off, as a fraction of the thickness.
   /// The tracks are shared out among the crew; what is stored, and in which order, does not depend on it.
   void take(const Frame& frame, double time_step, const Layout& layout, double tolerance, TrackStore& out, Crew& crew);
+  /// Takes what moved in the steps before a frame without being in their frames.
+  void take_unseen(const Frame& frame, const Layout& layout, double tolerance, TrackStore& out);
   void close_all(TrackStore& out);
 
  private:

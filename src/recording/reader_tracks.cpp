@@ -125,11 +125,18 @@ RecordingReader::Done RecordingReader::take_free(const Piece& piece) {
   Source source = piece.source();
   Tracks<14> tracks;
   if (!read_tracks(source, tracks)) return misfit(piece);
+  TrackStore& store = recording_->store_->tracks;
+  const auto before = static_cast<std::int32_t>(store.size());
   std::vector<FreeKnot> knots;
   for (std::size_t t = 0; t < tracks.count; ++t) {
     if (auto done = check_head(tracks, t, piece.offset); !done) return done;
-    if (tracks.shared(t)) return wrong(piece.offset, "a track of a free brick with the knots of another");
     const auto brick = static_cast<BrickId>(tracks.brick[t]);
+    if (tracks.shared(t)) {
+      const std::int32_t owner = before + static_cast<std::int32_t>(tracks.owner(t));
+      if (auto done = check_start(brick, tracks.start[t], double{store.last_free_knot(owner)->time}, piece.offset); !done) return done;
+      store.add_same(brick, tracks.start[t], owner);
+      continue;
+    }
     const std::size_t first = tracks.first[t];
     const std::size_t count = tracks.knots[t];
     knots.clear();
@@ -139,7 +146,7 @@ RecordingReader::Done RecordingReader::take_free(const Piece& piece) {
                        n[12][i], n[13][i]});
     }
     if (auto done = check_start(brick, tracks.start[t], double{knots.back().time}, piece.offset); !done) return done;
-    recording_->store_->tracks.add(brick, tracks.start[t], knots);
+    store.add(brick, tracks.start[t], knots);
   }
   return {};
 }

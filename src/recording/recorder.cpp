@@ -87,8 +87,10 @@ void Recorder::Open::take_tracks() {
   const Timed timed(profile, Stage::tracks);
   take_kinks();
   take_hinged();
-  take_echoes();
+  for (const BrickId brick : frame.echoed) store.tracks.will_be_echoed(brick);
+  free.take_unseen(frame, store.layout, store.tolerance, store.tracks);
   free.take(frame, time_step, store.layout, store.tolerance, store.tracks, crew);
+  take_echoes();
   if (step % kStepsBetweenCloses == 0) close_long_paused();
 }
 
@@ -167,6 +169,7 @@ void Recorder::Open::take_last_states(const Model& model) {
   frame.states_wanted = frame.last = true;
   model.read(frame);
   frame.states_wanted = frame.last = false;
+  free.take_unseen(frame, store.layout, store.tolerance, store.tracks);
   if (!frame.curved) return;
   take_kinks();
   for (const HingedMotion& motion : frame.hinged) {

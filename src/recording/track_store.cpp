@@ -6,9 +6,9 @@
 
 namespace topple {
 
-void TrackStore::add_piece(BrickId brick, double start, const std::uint8_t* code) {
-  std::int32_t& last = last_[static_cast<std::size_t>(brick)];
-  pieces_.push_back({start, code, brick, last});
+void TrackStore::add_piece(const Piece& piece) {
+  std::int32_t& last = last_[static_cast<std::size_t>(piece.of())];
+  pieces_.push_back({piece.start, piece.code, piece.brick, last});
   last = static_cast<std::int32_t>(pieces_.size()) - 1;
 }
 
@@ -18,13 +18,16 @@ void TrackStore::add_echo(BrickId brick, BrickId like, double start, double like
   for (std::size_t i = echoed_.size(); i-- > 0;) add_same(brick, start + (start_of(echoed_[i]) - like_start), echoed_[i]);
 }
 
-void TrackStore::add_same(BrickId brick, double start, std::int32_t piece) { add_piece(brick, start, code_of(piece)); }
+void TrackStore::add_same(BrickId brick, double start, std::int32_t piece) {
+  const bool lasts = pieces_[static_cast<std::size_t>(piece)].brick < 0;
+  add_piece({start, code_of(piece), lasts ? ~brick : brick, kNone});
+}
 
 void TrackStore::add(BrickId brick, double start, std::span<const HingedKnot> knots) {
   if (knots.empty()) return;
   code_.clear();
   encode(knots, code_);
-  add_piece(brick, start, codes_.append(code_));
+  add_piece({start, codes_.append(code_), brick, kNone});
 }
 
 void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knots) {
@@ -35,11 +38,13 @@ void TrackStore::add(BrickId brick, double start, std::span<const FreeKnot> knot
 }
 
 void TrackStore::add_free_code(BrickId brick, double start, std::span<const std::uint8_t> code) {
-  add_piece(brick, start, free_codes_.append(code));
+  const bool lasts = models_.contains(brick);
+  add_piece({start, (lasts ? codes_ : free_codes_).append(code), lasts ? ~brick : brick, kNone});
 }
 
 void TrackStore::let_go(std::size_t pieces) {
   for (; let_go_ < std::min(pieces, pieces_.size()); ++let_go_) {
+    if (pieces_[let_go_].brick < 0) continue;
     const auto last = last_free_knot(static_cast<std::int32_t>(let_go_));
     if (!last) continue;
     code_.clear();
@@ -47,7 +52,7 @@ void TrackStore::let_go(std::size_t pieces) {
     pieces_[let_go_].code = free_ends_.append(code_);
   }
   std::size_t next = let_go_;
-  while (next < pieces_.size() && !last_free_knot(static_cast<std::int32_t>(next))) ++next;
+  while (next < pieces_.size() && (pieces_[next].brick < 0 || !last_free_knot(static_cast<std::int32_t>(next)))) ++next;
   free_codes_.drop_before(next < pieces_.size() ? pieces_[next].code : nullptr);
 }
 
@@ -67,7 +72,7 @@ Track TrackStore::track(std::size_t index) const {
 
 void TrackStore::read(std::size_t index, Track& out) const {
   const Piece& piece = pieces_[index];
-  out.brick = piece.brick;
+  out.brick = piece.of();
   out.start = piece.start;
   out.hinged.clear();
   out.free.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <unordered_set>
 
 #include "recording/blocks.h"
 #include "topple/recording.h"
@@ -16,6 +17,7 @@ class TrackStore {
   void add(BrickId brick, double start, std::span<const FreeKnot> knots);
   /// The brick moves as `like` did from `like_start` on, and begins at `start`: the same codes are kept for both.
   void add_echo(BrickId brick, BrickId like, double start, double like_start);
+  void will_be_echoed(BrickId brick) { models_.insert(brick); }    ///< To be said before its pieces come.
   void add_same(BrickId brick, double start, std::int32_t piece);  ///< With the knots of another piece, kept once.
 
   void add_free_code(BrickId brick, double start, std::span<const std::uint8_t> code);  ///< Of encode().
@@ -33,7 +35,7 @@ class TrackStore {
   Count read(std::int32_t index, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) const;
   std::optional<HingedKnot> last_knot(std::int32_t index) const;     ///< Of a hinged piece.
   std::optional<FreeKnot> last_free_knot(std::int32_t index) const;  ///< Of a free piece.
-  BrickId brick_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].brick; }
+  BrickId brick_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].of(); }
   /// The same for pieces that share their knots.
   const std::uint8_t* code_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].code; }
   double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
@@ -46,23 +48,25 @@ class TrackStore {
   std::size_t bytes() const;
 
  private:
-  void add_piece(BrickId brick, double start, const std::uint8_t* code);
-
   struct Piece {
     double start;
     const std::uint8_t* code;
-    BrickId brick;
+    BrickId brick;  // ~brick where the code is one that others echo, which is never let go.
     std::int32_t previous;
+
+    BrickId of() const { return brick < 0 ? ~brick : brick; }
   };
+  void add_piece(const Piece& piece);
 
   Blocks<Piece> pieces_;
-  Runs<std::uint8_t> codes_;       // Of hinged pieces.
+  Runs<std::uint8_t> codes_;       // Of hinged pieces, and of free ones that others echo.
   Runs<std::uint8_t> free_codes_;  // Of free ones, in the order of the pieces,
   Runs<std::uint8_t> free_ends_;   // and of those that were let go.
   std::size_t let_go_ = 0;         // So many pieces have been looked at.
   std::vector<std::int32_t> last_;
-  std::vector<std::uint8_t> code_;    // Of the piece that is being added.
-  std::vector<std::int32_t> echoed_;  // Scratch.
+  std::vector<std::uint8_t> code_;      // Of the piece that is being added.
+  std::vector<std::int32_t> echoed_;    // Scratch.
+  std::unordered_set<BrickId> models_;  // Bricks that others echo.
 };
 
 /// The moment of a track's last knot [s].

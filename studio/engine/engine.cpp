@@ -223,8 +223,11 @@ bool topple_watch(const char* text, std::size_t size, const char* name, std::siz
   topple::Result<topple::Layout> layout = topple::read_layout({text, size}, {name, name_size}, settings);
   if (!layout) return topple::fail(layout.error());
   all.watched_layout = std::move(*layout);
-  const topple::Result<topple::ModelConfig> config = topple::model_config(*all.watched_layout);
+  topple::Result<topple::ModelConfig> config = topple::model_config(*all.watched_layout);
   if (!config) return topple::fail(config.error());
+  // What is not computed again has no forces; the bits are the same.
+  if (auto* rigid = std::get_if<topple::RigidConfig>(&*config)) rigid->repeats = false;
+  if (auto* hinge = std::get_if<topple::HingeConfig>(&*config)) hinge->repeats = false;
   auto model = topple::make_model(*all.watched_layout, *config);
   if (!model) return topple::fail(model.error());
   all.watched = std::move(*model);

@@ -99,7 +99,7 @@ inline SweptRun run_swept(const SweptRow& row, double until) {
   const double unit = std::sqrt(layout.kinds[0].height / layout.gravity);
   const double thin = std::min(layout.kinds[0].thickness, layout.kinds[0].width);
   SweptRun run;
-  auto model = rigid::make_rigid_model(layout, {});
+  auto model = rigid::make_rigid_model(layout, {.repeats = false});  // Frames leave out what echoes tell.
   REQUIRE(model.has_value());
   std::vector<Pose> poses;
   for (BrickId i = 0; i < layout.brick_count(); ++i) poses.push_back(standing_pose(layout, i));

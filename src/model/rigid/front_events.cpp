@@ -208,7 +208,7 @@ std::size_t Front::motion_count() const {
       std::count_if(members_.begin(), members_.end(), [](const Member& member) { return member.moving || member.just_rested; }));
 }
 
-void Front::read(std::span<FreeMotion> out, Energy& energy) const {
+void Front::read(std::span<FreeMotion> out, Energy* energy) const {
   std::size_t next = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving && !members_[i].just_rested) continue;
@@ -219,8 +219,9 @@ void Front::read(std::span<FreeMotion> out, Energy& energy) const {
                    body.velocity,
                    body.angular_velocity};
     if (!members_[i].moving) continue;
-    energy.kinetic += kinetic_energy(body);
-    energy.potential += potential_energy(world_, body.id, body.position.z);
+    if (energy == nullptr) continue;
+    energy->kinetic += kinetic_energy(body);
+    energy->potential += potential_energy(world_, body.id, body.position.z);
   }
 }
 

@@ -117,7 +117,8 @@ BrickId Front::row_brick() const {
     for (const BrickId other : near) {
       const std::int32_t owner = world_.front[static_cast<std::size_t>(other)];
       if (moves(other)) continue;
-      const InPlane found = locate_in(plane, world_, other, half_width);
+      const InPlane found = locate_in(plane, world_, other, world_.pose[static_cast<std::size_t>(other)],
+                                      world_.phase[static_cast<std::size_t>(other)] == Phase::resting, half_width);
       if (found.misses) continue;
       if (!found.lies || (owner != kNoFront && owner != number_)) return kNoBrick;
     }

@@ -29,22 +29,28 @@ double kinetic_energy(const PlaneBrick& brick) {
 
 }  // namespace
 
-void PlaneFront::note_arrivals(double begin, double time, double whole) {
+// Of the drift under way, up to so long after it began.
+void PlaneFront::note_arrivals(double until) {
   for (const PlaneBrick& brick : bricks_) {
     if (!brick.moving) continue;
-    const double rate = brick.velocity.turn, gain = (brick.middle.turn - brick.velocity.turn) / whole;
+    const double rate = brick.velocity.turn, gain = (brick.middle.turn - brick.velocity.turn) / drift_.whole;
     const auto turn_at = [&](double t) { return brick.box.place.turn + t * (rate + t * gain); };
-    if (std::abs(turn_at(time)) < kArrivalTilt) continue;
-    std::uint8_t& arrived = world_.arrived[static_cast<std::size_t>(brick.id)];
-    if (arrived != 0) continue;
-    arrived = 1;
-    double low = 0.0, high = time;
+    if (std::abs(turn_at(until)) < kArrivalTilt) continue;
+    if (world_.arrived[static_cast<std::size_t>(brick.id)] != 0) continue;
+    // Between the ends of the drift, not of the step: so it does not depend on where in a step it is.
+    double low = 0.0, high = drift_.cut;
     for (int i = 0; i < 50; ++i) {
       const double middle = 0.5 * (low + high);
       (std::abs(turn_at(middle)) < kArrivalTilt ? low : high) = middle;
     }
-    events_.push_back(plain_event(EventKind::arrived, begin + high, brick.id, kNoBrick));
+    note_arrival(brick.id, now_ + high);
+    if (even_ > 0) cycle_.drifts[cycle_.count - 1].arrivals.push_back({brick.id - last_struck_, high});
   }
+}
+
+void PlaneFront::note_arrival(BrickId brick, double time) {
+  world_.arrived[static_cast<std::size_t>(brick)] = 1;
+  events_.push_back(plain_event(EventKind::arrived, time, brick, kNoBrick));
 }
 
 void PlaneFront::note_struck(double now) {
@@ -175,15 +181,38 @@ void PlaneFront::begin_push(const Push& push, double now) {
   events_.push_back(event);
 }
 
+// A brick as it is by now, amid the drift.
+PlaneBrick PlaneFront::at_this_moment(const PlaneBrick& brick) const {
+  PlaneBrick out = brick;
+  if (!drift_.under_way || !brick.moving) return out;
+  out.box = box_at(brick, drift_.done, drift_.whole);
+  out.velocity = brick.velocity + (2.0 * drift_.done / drift_.whole) * (brick.middle - brick.velocity);
+  return out;
+}
+
 void PlaneFront::add_to(Hash& hash) const {
-  for (const PlaneBrick& brick : bricks_) {
-    if (!brick.moving && !brick.just_rested) continue;
-    hash.add(static_cast<std::uint64_t>(brick.id));
-    for (const PlaneVec* v : {&brick.box.place, &brick.velocity}) {
-      hash.add(v->x);
-      hash.add(v->z);
-      hash.add(v->turn);
+  const auto add = [&hash](BrickId brick, const PlaneVec& place, const PlaneVec& velocity) {
+    hash.add(static_cast<std::uint64_t>(brick));
+    for (const PlaneVec& v : {place, velocity}) {
+      hash.add(v.x);
+      hash.add(v.z);
+      hash.add(v.turn);
     }
+  };
+  for (const PlaneBrick& brick : rested_now_) add(brick.id, brick.box.place, brick.velocity);
+  const auto add_moving = [&](BrickId brick, const PlaneVec& place, const PlaneVec& velocity, const PlaneVec& middle) {
+    if (!drift_.under_way) return add(brick, place, velocity);
+    const double time = drift_.done, whole = drift_.whole;
+    add(brick, place + time * velocity + (time * time / whole) * (middle - velocity),
+        velocity + (2.0 * time / whole) * (middle - velocity));
+  };
+  if (repeat_.on) {
+    for (const PlaneCycle::Place& p : cycle_.drifts[repeat_.drift].places)
+      add_moving(last_struck_ + p.brick, p.place, p.velocity, p.middle);
+    return;
+  }
+  for (const PlaneBrick& brick : bricks_) {
+    if (brick.moving) add_moving(brick.id, brick.box.place, brick.velocity, brick.middle);
   }
 }
 
@@ -196,21 +225,64 @@ BrickId PlaneFront::not_finite() const {
 }
 
 std::size_t PlaneFront::motion_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(bricks_.begin(), bricks_.end(), [](const PlaneBrick& brick) { return brick.moving || brick.just_rested; }));
+  std::size_t count = 0;
+  for (const PlaneBrick& brick : rested_now_) count += is_unseen(brick.id) ? 0 : 1;
+  if (repeat_.on) {
+    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) count += is_unseen(last_struck_ + place.brick) ? 0 : 1;
+    return count;
+  }
+  for (const PlaneBrick& brick : bricks_) count += brick.moving ? 1 : 0;
+  return count;
 }
 
-void PlaneFront::read(std::span<FreeMotion> out, Energy& energy) const {
+void PlaneFront::read(std::span<FreeMotion> out, Energy* energy) const {
   std::size_t next = 0;
-  for (const PlaneBrick& brick : bricks_) {
-    if (!brick.moving && !brick.just_rested) continue;
-    const PlaneVec& v = brick.velocity;
-    out[next++] = {brick.id, brick.moving ? Phase::falling : Phase::resting, pose_of(brick), v.x * plane_.along + Vec3{0.0, 0.0, v.z},
-                   v.turn * plane_.across};
-    if (!brick.moving) continue;
-    energy.kinetic += kinetic_energy(brick);
-    energy.potential += potential_energy(world_, brick.id, brick.box.place.z);
+  for (const PlaneBrick& brick : rested_now_) {
+    if (!is_unseen(brick.id)) out[next++] = {brick.id, Phase::resting, pose_of(brick), {}, {}};
   }
+  const auto tell = [&](const PlaneBrick& brick) {
+    const PlaneVec& v = brick.velocity;
+    if (!is_unseen(brick.id)) {
+      out[next++] = {brick.id, Phase::falling, pose_of(brick), v.x * plane_.along + Vec3{0.0, 0.0, v.z}, v.turn * plane_.across};
+    }
+    if (energy == nullptr) return;
+    energy->kinetic += kinetic_energy(brick);
+    energy->potential += potential_energy(world_, brick.id, brick.box.place.z);
+  };
+  if (repeat_.on) {
+    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) {
+      if (energy != nullptr || !is_unseen(last_struck_ + place.brick)) tell(at_this_moment(place));
+    }
+    return;
+  }
+  for (const PlaneBrick& brick : bricks_) {
+    if (brick.moving) tell(at_this_moment(brick));
+  }
+}
+
+// Where the points of a drift's beginning are by now.
+PlaneManifold PlaneFront::at_this_moment(const PlaneTouch& touch) const {
+  PlaneManifold by_now = touch.now, moved;
+  moved.axis = touch.now.axis;
+  const PlaneBox a = at_this_moment(bricks_[static_cast<std::size_t>(touch.a)]).box;
+  const double far = touch.thin;
+  if (touch.b < 0) {
+    touch_floor(a, far, moved);
+  } else {
+    touch_boxes(a, at_this_moment(bricks_[static_cast<std::size_t>(touch.b)]).box, far, moved);
+  }
+  bool same = moved.count > 0;
+  for (std::size_t k = 0; same && k < static_cast<std::size_t>(touch.now.count); ++k) {
+    const auto end = moved.points.begin() + moved.count;
+    const auto found =
+        std::find_if(moved.points.begin(), end, [&](const PlanePoint& p) { return p.feature == touch.now.points[k].feature; });
+    same = found != end;
+    if (same) by_now.points[k] = *found;
+  }
+  if (!same) return touch.now;
+  by_now.normal_x = moved.normal_x;
+  by_now.normal_z = moved.normal_z;
+  return by_now;
 }
 
 void PlaneFront::read(std::vector<Contact>& out) const {
@@ -218,13 +290,14 @@ void PlaneFront::read(std::vector<Contact>& out) const {
     const PlaneBrick& a = bricks_[static_cast<std::size_t>(touch.a)];
     const PlaneBrick* b = touch.b < 0 ? nullptr : &bricks_[static_cast<std::size_t>(touch.b)];
     if (!a.moving && (b == nullptr || !b->moving)) continue;
-    const Vec3 normal = touch.now.normal_x * plane_.along + Vec3{0.0, 0.0, touch.now.normal_z};
-    const Vec3 tangent = touch.now.normal_z * plane_.along + Vec3{0.0, 0.0, -touch.now.normal_x};
+    const PlaneManifold by_now = at_this_moment(touch);
+    const Vec3 normal = by_now.normal_x * plane_.along + Vec3{0.0, 0.0, by_now.normal_z};
+    const Vec3 tangent = by_now.normal_z * plane_.along + Vec3{0.0, 0.0, -by_now.normal_x};
     for (std::size_t k = 0; k < static_cast<std::size_t>(touch.now.count); ++k) {
       const PlaneMemory& memory = touch.memory[k];
       const double pressure = memory.normal + memory.leaning;
       if (!memory.active || pressure <= 0.0) continue;
-      const PlanePoint& point = touch.now.points[k];
+      const PlanePoint& point = by_now.points[k];
       out.push_back({a.id, b == nullptr ? kNoBrick : b->id, in_world(point.x, point.z),
                      pressure * normal + (memory.tangent + memory.leaning_tangent) * tangent});
     }

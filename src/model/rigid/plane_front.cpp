@@ -27,6 +27,33 @@ double displacement(const PlaneBrick& brick, const PlaneVec& from) {
 
 PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(world, number), plane_(plane_of_row(world.layout, first)) {}
 
+// Where a brick was put down, from the one beside it if that is known. Far from the origin of the layout places are rounded; an even row
+// is even here.
+double PlaneFront::stand_of(BrickId brick) {
+  const double along = stand_along(plane_, world_.layout, brick);
+  for (const BrickId beside : {brick - 1, brick + 1}) {
+    const int place = beside < world_.layout.brick_count() ? place_of(beside) : -1;
+    if (place < 0) continue;
+    const double apart = along - stand_along(plane_, world_.layout, beside), pitch = std::abs(apart);
+    if (std::abs(pitch - pitch_) > kSamePitch) pitch_ = pitch;
+    return bricks_[static_cast<std::size_t>(place)].stand + (apart > 0.0 ? pitch_ : -pitch_);
+  }
+  return along - origin_;
+}
+
+// From here on places along the row are against where this brick was put down.
+void PlaneFront::count_from(const PlaneBrick& brick) {
+  const double shift = brick.stand;
+  origin_ = stand_along(plane_, world_.layout, brick.id);
+  for (PlaneBrick& other : bricks_) {
+    for (double* x : {&other.box.place.x, &other.next.place.x, &other.listed_at.x, &other.stand}) *x -= shift;
+  }
+  for (PlaneTouch& touch : touches_) {
+    touch.mark.x -= shift;
+    for (PlanePoint& point : touch.now.points) point.x -= shift;
+  }
+}
+
 int PlaneFront::place_of(BrickId brick) const {
   if (brick < 0 || !owns(brick)) return -1;
   const auto noted = static_cast<std::size_t>(world_.noted_place(brick));
@@ -38,7 +65,8 @@ int PlaneFront::place_of(BrickId brick) const {
 }
 
 Vec3 PlaneFront::in_world(double x, double z) const {
-  return {plane_.origin.x + x * plane_.along.x, plane_.origin.y + x * plane_.along.y, z};
+  const double along = origin_ + x;
+  return {plane_.origin.x + along * plane_.along.x, plane_.origin.y + along * plane_.along.y, z};
 }
 
 // Of half the turn; by roots, which are exact everywhere, while it is less than a right angle and a half.
@@ -51,16 +79,37 @@ SinCos PlaneFront::half_turn(const PlaneBox& box) {
 Pose PlaneFront::pose_of(const PlaneBrick& brick) const {
   const SinCos half = half_turn(brick.box);
   const Quat turn{half.cos, half.sin * plane_.across.x, half.sin * plane_.across.y, 0.0};
-  return {in_world(brick.box.place.x, brick.box.place.z) + brick.lateral * plane_.across, turn * brick.upright};
+  const Vec3& foot = world_.layout.bricks[static_cast<std::size_t>(brick.id)].foot;
+  const double moved = brick.box.place.x - brick.stand;
+  const Vec3 place = {foot.x + (moved * plane_.along.x + brick.aside * plane_.across.x),
+                      foot.y + (moved * plane_.along.y + brick.aside * plane_.across.y), brick.box.place.z};
+  return {place, turn * brick.upright};
 }
 
-int PlaneFront::add(BrickId brick, const PlaneVec& place) {
+// What came to rest in this step is not entered in the world yet.
+const Pose& PlaneFront::last_pose(BrickId brick) const {
+  for (const Ledger::Rest& rest : ledger_.rested) {
+    if (rest.brick == brick) return rest.pose;
+  }
+  return world_.pose[static_cast<std::size_t>(brick)];
+}
+
+bool PlaneFront::rests(BrickId brick) const {
+  return world_.phase[static_cast<std::size_t>(brick)] == Phase::resting ||
+         std::any_of(ledger_.rested.begin(), ledger_.rested.end(), [brick](const Ledger::Rest& rest) { return rest.brick == brick; });
+}
+
+InPlane PlaneFront::locate(BrickId brick) const { return locate_in(plane_, world_, brick, last_pose(brick), rests(brick), half_width_); }
+
+int PlaneFront::add(BrickId brick, const PlaneVec& moved) {
   const auto at = static_cast<std::size_t>(brick);
   const Brick& put = world_.layout.bricks[at];
   const BrickKind& kind = world_.layout.kinds[put.kind];
   const Extents size = extents(kind, put.stance);
   PlaneBrick added;
-  added.box.place = place;
+  added.stand = stand_of(brick);
+  added.box.place = moved;
+  added.box.place.x += added.stand;
   added.box.half_along = 0.5 * size.along;
   added.box.half_up = 0.5 * size.up;
   set_turn(added.box);
@@ -73,9 +122,10 @@ int PlaneFront::add(BrickId brick, const PlaneVec& place) {
   added.thin = std::min({kind.height, kind.width, kind.thickness});
   added.time_scale = std::sqrt(std::max({kind.height, kind.width, kind.thickness}) / world_.gravity);
   added.upright = standing_pose(world_.layout, brick).orientation;
-  added.lateral = dot(world_.pose[at].position - plane_.origin, plane_.across);
+  const Pose& pose = last_pose(brick);
+  added.aside = dot(pose.position - put.foot, plane_.across);
   // One that came to rest a little out of the plane stays so.
-  if (world_.phase[at] == Phase::resting) added.upright = in_plane(plane_, world_.layout, brick, world_.pose[at]).upright;
+  if (rests(brick)) added.upright = in_plane(plane_, world_.layout, brick, pose).upright;
   added.id = brick;
   added.kind = put.kind;
   half_width_ = std::max(half_width_, 0.5 * size.across);
@@ -87,13 +137,15 @@ int PlaneFront::add(BrickId brick, const PlaneVec& place) {
 }
 
 void PlaneFront::wake(BrickId brick, double /*time*/) {
+  interrupt();
   int place = place_of(brick);
   if (place < 0) {
     leaves_plane_ = leaves_plane_ || !put_down_in(plane_, world_.layout, brick);
-    place = add(brick, locate_in(plane_, world_, brick, 0.0).place);
+    place = add(brick, locate(brick).place);
   }
   if (bricks_[static_cast<std::size_t>(place)].moving) return;
   ledger_.woken.push_back(brick);
+  std::erase_if(rested_now_, [brick](const PlaneBrick& rested) { return rested.id == brick; });
   PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
   woken.moving = true;
   woken.quiet = 0.0;
@@ -143,12 +195,13 @@ void PlaneFront::list_neighbours(int place) {
     if (other == id) continue;
     int there = place_of(other);
     if (there < 0) {
-      const std::int32_t front = world_.front[static_cast<std::size_t>(other)];
+      // One that this front has left in this step is nobody's.
+      const std::int32_t owner = world_.front[static_cast<std::size_t>(other)], front = owner == number_ ? kNoFront : owner;
       // Of a brick of another front only the place where that front listed it is known.
       const double reach = (front == kNoFront ? 1.5 : 1.6) * radius + norm(half_extents(world_.layout.kind_of(other)));
-      const Vec3 apart = world_.pose[static_cast<std::size_t>(other)].position - centre;
+      const Vec3 apart = last_pose(other).position - centre;
       if (dot(apart, apart) > reach * reach) continue;
-      const InPlane found = locate_in(plane_, world_, other, half_width_);
+      const InPlane found = locate(other);
       if (found.misses) continue;
       if (front != kNoFront) {
         meet(front);
@@ -185,6 +238,12 @@ void PlaneFront::list_neighbours(int place) {
   }
 }
 
+// From where a brick was listed to where it is.
+void PlaneFront::move(BrickId brick, const PlaneVec& from, const PlaneVec& to) {
+  ledger_.moves.push_back({brick, in_world(from.x, from.z), in_world(to.x, to.z)});
+  if (even_ > 0) cycle_.drifts[cycle_.count - 1].moves.push_back({brick - cycle_.first, from, to});
+}
+
 void PlaneFront::list_those_that_strayed() {
   const std::size_t count = bricks_.size(), pairs = touches_.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -193,8 +252,7 @@ void PlaneFront::list_those_that_strayed() {
     // Two that come towards each other are listed in time: half a radius is to spare.
     const double allowed = 0.24 * bricks_[i].radius;
     if (strayed.x * strayed.x + strayed.z * strayed.z < allowed * allowed) continue;
-    const PlaneVec& before = bricks_[i].listed_at;
-    ledger_.moves.push_back({bricks_[i].id, in_world(before.x, before.z), in_world(bricks_[i].box.place.x, bricks_[i].box.place.z)});
+    move(bricks_[i].id, bricks_[i].listed_at, bricks_[i].box.place);
     list_neighbours(static_cast<int>(i));
   }
   if (touches_.size() != pairs || rested_) {
@@ -320,24 +378,23 @@ void PlaneFront::retire(double time) {
   const Tolerances& limits = world_.tolerances;
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
     PlaneBrick& brick = bricks_[i];
-    brick.just_rested = false;
     if (!brick.moving) continue;
     // How far its farthest corner would go with this speed and this acceleration [m].
     const double horizon = limits.horizon * brick.time_scale;
     const auto corner = [&brick](const PlaneVec& v) { return std::sqrt(v.x * v.x + v.z * v.z) + brick.radius * std::abs(v.turn); };
-    const double gain = corner(brick.velocity - brick.velocity_before) / world_.step;
+    const double gain = corner(brick.velocity - brick.velocity_before) / since_look_;
     const double ahead = horizon * (corner(brick.velocity) + 0.5 * horizon * gain);
-    brick.quiet = ahead < kRetire * limits.retire * brick.thin && !brick.pushed ? brick.quiet + world_.step : 0.0;
+    brick.quiet = ahead < kRetire * limits.retire * brick.thin && !brick.pushed ? brick.quiet + since_look_ : 0.0;
     if (brick.quiet < kPatience * limits.patience * brick.time_scale) continue;
     rested_ = true;
     brick.moving = false;
-    brick.just_rested = true;
     --moving_;
-    ledger_.moves.push_back({brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z)});
+    move(brick.id, brick.listed_at, brick.box.place);
     ledger_.rested.push_back({brick.id, pose_of(brick)});
     note_rest(static_cast<int>(i), time);
     brick.velocity = {};
     brick.middle = {};
+    rested_now_.push_back(brick);
     for (PlaneTouch& touch : touches_) {
       if (touch.b < 0 || (touch.a != static_cast<int>(i) && touch.b != static_cast<int>(i))) continue;
       touch.bearing = touch.impulse > 0.0;
@@ -366,9 +423,10 @@ void PlaneFront::adopt(std::span<const HandedBrick> bricks) {
     const int place = add(handed.brick, apart.place);
     PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
     brick.upright = apart.upright;
-    brick.lateral = apart.lateral;
+    brick.aside = dot(handed.pose.position - world_.layout.bricks[static_cast<std::size_t>(handed.brick)].foot, plane_.across);
     brick.velocity = {dot(handed.velocity, plane_.along), handed.velocity.z, dot(handed.angular_velocity, plane_.across)};
-    brick.listed_at = apart.place;
+    brick.velocity_before = brick.velocity;
+    brick.listed_at = brick.box.place;
     brick.moving = true;
     brick.quiet = handed.quiet;
     brick.pushed = handed.pushed;
@@ -394,6 +452,7 @@ void PlaneFront::adopt(std::span<const HandedBrick> bricks) {
 
 // It joins the other front before the next step, and hands over only what it owns.
 void PlaneFront::lose(BrickId brick) {
+  if (repeat_.on) return;
   for (PlaneBrick& lost : bricks_) {
     if (lost.id != brick || !lost.moving) continue;
     lost.moving = false;
@@ -402,16 +461,31 @@ void PlaneFront::lose(BrickId brick) {
 }
 
 void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveForce>& forces) {
-  for (const PlaneBrick& brick : bricks_) {
-    std::int32_t& owner = world_.front[static_cast<std::size_t>(brick.id)];
-    if (owner != number_) continue;
-    owner = kNoFront;
-    if (!brick.moving) continue;
+  const auto disown = [this](BrickId brick) {
+    std::int32_t& owner = world_.front[static_cast<std::size_t>(brick)];
+    const bool owned = owner == number_;
+    if (owned) owner = kNoFront;
+    return owned;
+  };
+  const auto hand = [&](const PlaneBrick& brick) {
+    if (!disown(brick.id) || !brick.moving) return;
     // Who takes it over lists it where it is now; left in the cell where this front listed it, it would be looked for in the wrong one.
     world_.neighbours.moved(brick.id, in_world(brick.listed_at.x, brick.listed_at.z), in_world(brick.box.place.x, brick.box.place.z));
     bricks.push_back({brick.id, pose_of(brick), brick.velocity.x * plane_.along + Vec3{0.0, 0.0, brick.velocity.z},
                       brick.velocity.turn * plane_.across, brick.quiet, brick.pushed, brick.landed});
+  };
+  if (repeat_.on) {
+    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) hand(at_this_moment(place));
+    for (const PlaneBrick& brick : bricks_) disown(brick.id);
+    for (std::size_t i = 0; i < cycle_.count; ++i) {
+      for (const int brick : cycle_.drifts[i].taken) disown(last_struck_ + brick);
+    }
+    tell_unseen(unseen_);
+    repeat_.on = false;
+  } else {
+    for (const PlaneBrick& brick : bricks_) hand(at_this_moment(brick));
   }
+  drift_ = {};
   for (const Force& force : forces_) {
     for (const PlaneBrick& brick : bricks_) {
       if (brick.id != force.brick) continue;

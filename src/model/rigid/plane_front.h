@@ -6,65 +6,12 @@
 #include <vector>
 
 #include "base/trigonometry.h"
+#include "model/rigid/plane_cycle.h"
 #include "model/rigid/plane_solver.h"
 #include "model/rigid/row_plane.h"
 #include "model/rigid/wave.h"
 
 namespace topple::rigid {
-
-struct PlaneBrick {
-  PlaneBox box;
-  PlaneBox next;          ///< At the end of the part of the step that is tried.
-  PlaneVec velocity;      ///< At this moment.
-  PlaneVec middle;        ///< Mean over the drift that is planned.
-  PlaneVec before_drift;  ///< Velocity when the last drift began.
-  PlaneVec acceleration;  ///< Before the last blow.
-  double mass = 0.0;      ///< [kg]
-  double inertia = 0.0;   ///< About the axis across [kg m^2].
-  double inverse_mass = 0.0, inverse_inertia = 0.0;
-  double radius = 0.0;       ///< Of the circle around it [m].
-  double thin = 0.0;         ///< Its thinnest side [m].
-  double time_scale = 0.0;   ///< sqrt(longest side / gravity) [s].
-  double quiet = 0.0;        ///< How long it has hardly moved [s].
-  PlaneVec velocity_before;  ///< At the start of the step.
-  PlaneVec listed_at;        ///< Where its list of neighbours was made.
-  Quat upright;              ///< Its orientation as put down.
-  double lateral = 0.0;      ///< Its place across the plane [m].
-  BrickId id = kNoBrick;
-  std::uint16_t kind = 0;
-  int unknown = -1;  ///< Its place in the system of equations.
-  bool moving = false;
-  bool pushed = false;
-  double path = 0.0;       ///< No corner has gone farther than this, all drifts together [m]...
-  double next_path = 0.0;  ///< ...with the one that is tried.
-  bool landed = false;
-  bool just_rested = false;
-};
-
-/// What a point remembers from moment to moment.
-struct PlaneMemory {
-  bool active = false;
-  bool fresh = false;                           ///< Became active at the end of this part of the step.
-  PointState kick, blow;                        ///< What it did in the last kick and in the last blow: the guess for the next one.
-  double overlap = 0.0;                         ///< What is left of the overlap that its impact found [m].
-  double normal = 0.0, tangent = 0.0;           ///< What it carried in the last kick [N].
-  double leaning = 0.0, leaning_tangent = 0.0;  ///< What a brick that rests and leans on one that moves goes on to press with [N].
-};
-
-struct PlaneTouch {
-  int a = 0;
-  int b = -1;         ///< -1: the floor.
-  double thin = 0.0;  ///< Of the thinner of the two [m].
-  double friction = 0.0;
-  double restitution = 0.0;
-  PlaneManifold now, next;
-  double apart_until = 0.0;  ///< It has no points before the paths of both bricks together are as long as this [m].
-  std::array<PlaneMemory, 2> memory;
-  double impulse = 0.0;  ///< Sum of the normal impulses of the last solution [N s].
-  double load = 0.0;     ///< The force that they are [N].
-  bool bearing = false;  ///< Of a pair of which one moves: they touched when the one came to rest or the other began to move.
-  PlaneVec mark;         ///< Where the moving one was then.
-};
 
 class PlaneFront final : public Wave {
  public:
@@ -76,7 +23,8 @@ class PlaneFront final : public Wave {
   void add_to(Hash& hash) const override;
   BrickId not_finite() const override;
   std::size_t motion_count() const override;
-  void read(std::span<FreeMotion> out, Energy& energy) const override;
+  void read(std::span<FreeMotion> out, Energy* energy) const override;
+  void tell_unseen(std::vector<UnseenMotion>& out) const override;
   void read(std::vector<Contact>& out) const override;
   bool must_join() const override { return leaves_plane_ || !met_.empty(); }
   bool general() const override { return false; }
@@ -91,9 +39,15 @@ class PlaneFront final : public Wave {
   bool moves(BrickId brick) const override;
   void lose(BrickId brick) override;
   int place_of(BrickId brick) const;
-  int add(BrickId brick, const PlaneVec& place);
+  int add(BrickId brick, const PlaneVec& moved);
+  const Pose& last_pose(BrickId brick) const;
+  bool rests(BrickId brick) const;
+  InPlane locate(BrickId brick) const;
+  double stand_of(BrickId brick);
+  void count_from(const PlaneBrick& brick);
   void list_neighbours(int place);
   void list_those_that_strayed();
+  void move(BrickId brick, const PlaneVec& from, const PlaneVec& to);
   void drop_idle();
   bool in_order() const;
   void order();
@@ -104,13 +58,41 @@ class PlaneFront final : public Wave {
   bool is_hit(const PlaneTouch& touch, const PlaneBrick& still) const;
   void retire(double time);
 
-  double part(double begin, double time, bool may_cut);
-  struct PatternPoint {
-    int a = 0, b = 0;  // Places counted backwards from the brick that was struck.
-    std::uint8_t feature = 0;
-    PointState state;
+  void apply(const PushMoment& moment);
+  void go_on_to(double moment);
+  bool keeps_step() const;
+  double stride() const;
+  void begin_drift(double moment);
+  void end_drift();
+  void interrupt();
+  void look_around();
+  // What is not computed again.
+  struct Struck {
+    BrickId brick, by;
   };
-  using Pattern = std::vector<PatternPoint>;
+  void after_strike();
+  bool is_even(const Struck& struck);
+  void keep();
+  bool is_as_kept() const;
+  void take_kept(BrickId struck);
+  struct Marks {
+    std::size_t taken, left, woken, rested, events, still;
+  };
+  Marks marks() const;
+  void write_down_places();
+  void write_down_end(const Marks& before);
+  void begin_repeat();
+  double struck_at(BrickId brick) const;
+  bool is_unseen(BrickId brick) const;
+  bool repeat_to(double moment);
+  void tell_end(const PlaneCycle::Drift& drift);
+  void repeat_strike();
+  bool next_is_alike();
+  void end_repeat();
+  void break_off();
+  PlaneBrick at_this_moment(const PlaneCycle::Place& place) const;
+  PlaneManifold at_this_moment(const PlaneTouch& touch) const;
+  PlaneBrick at_this_moment(const PlaneBrick& brick) const;
   void recall(const Pattern& pattern, int head, int most = 1 << 20);
   void keep(Pattern& pattern, int head, int most = 1 << 20) const;
   bool closes_fast() const;
@@ -135,7 +117,7 @@ class PlaneFront final : public Wave {
   PlaneBox box_at(const PlaneBrick& brick, double time, double whole) const;
   void accept_drift(double cut, double whole);
   bool activate_new_points();
-  void take_blow(double whole, double next, bool ends_step);
+  void take_blow(double whole, double next);
   void stop_at_once();
   bool blow(bool always);
   void give_back();
@@ -143,7 +125,8 @@ class PlaneFront final : public Wave {
 
   void keep_what_stays(PlaneTouch& touch, int place) const;
   void begin_push(const Push& push, double now);
-  void note_arrivals(double begin, double time, double whole);
+  void note_arrivals(double until);
+  void note_arrival(BrickId brick, double time);
   void note_struck(double now);
   void note_landed(double now);
   void note_rest(int place, double now);
@@ -153,12 +136,26 @@ class PlaneFront final : public Wave {
   Pose pose_of(const PlaneBrick& brick) const;
 
   RowPlane plane_;
+  /// Places along the row are counted from the brick that was struck last: after each strike of an even row all numbers are the same then.
+  double origin_ = 0.0;      // Where that is along the plane [m].
+  double pitch_ = 0.0;       // From brick to brick [m].
   double half_width_ = 0.0;  // Widest of its bricks [m].
   bool leaves_plane_ = false;
   int moving_ = 0;
-  double stride_ = 0.0;       // The step, or a part of it: how long drifts are [s].
-  double planned_for_ = 0.0;  // `middle` is good for a drift of this time [s]; 0: for none.
-  bool rested_ = false;       // Some brick came to rest since the lists were made.
+  /// Bricks are where a drift began; it ends at an impact or after its whole length, mostly in another step than it began.
+  struct Drift {
+    bool under_way = false;
+    double whole = 0.0;  // As it is planned [s]...
+    double cut = 0.0;    // ...and up to the first impact.
+    double done = 0.0;   // How far the step has come in it.
+  };
+  double now_ = 0.0;  // When the drift under way began [s].
+  Drift drift_;
+  double since_look_ = 0.0;             // Time since neighbours and rests were looked at [s],
+  int cuts_ = 0;                        // and impacts located in it.
+  double planned_for_ = 0.0;            // `middle` is good for a drift of this time [s]; 0: for none.
+  bool rested_ = false;                 // Some brick came to rest since the lists were made.
+  std::vector<PlaneBrick> rested_now_;  // In this step.
   std::vector<PlaneBrick> bricks_, spare_;
   std::vector<PlaneTouch> touches_;
   std::vector<int> near_pairs_;  // Those that have points, or may have some at the end of the drift that is tried.
@@ -171,9 +168,6 @@ class PlaneFront final : public Wave {
     double end = 0.0;         // [s]
   };
   std::vector<Force> forces_;
-  struct Struck {
-    BrickId brick, by;
-  };
   std::vector<Struck> struck_now_;
   Pattern strike_;                 // How the last strike went,
   std::array<Pattern, 16> leaps_;  // and the leaps after it.
@@ -181,6 +175,23 @@ class PlaneFront final : public Wave {
   std::size_t since_strike_ = 0;
   std::vector<BrickId> near_;
   std::vector<int> renamed_, by_place_;
+
+  PlaneState kept_;          // After the last strike,
+  PlaneCycle cycle_;         // and all since then.
+  BrickId way_ = 0;          // From a brick's number to that of the next to be struck: 1 or -1.
+  double even_pitch_ = 0.0;  // [m]
+  int even_ = 0;             // So many strikes in turn were of an even row.
+  struct Repeat {
+    bool on = false;
+    std::size_t drift = 0;      // Of the cycle: the one under way.
+    std::size_t arrivals = 0;   // Of that drift, told already.
+    BrickId like = kNoBrick;    // Whose motion is that of all that are struck after it,
+    double like_struck = 0.0;   // and when it was struck [s].
+    std::int64_t strikes = 0;   // Since then.
+    std::vector<double> times;  // When the last of them were [s].
+    PlaneBrick one;             // What all bricks have in common.
+  };
+  Repeat repeat_;
   PlaneSolver solver_;
 };
 

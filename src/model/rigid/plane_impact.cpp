@@ -129,7 +129,7 @@ double PlaneFront::impact_of(const PlaneTouch& touch, const PlanePoint& point, d
   return impact_between(
       time, world_.tolerances.touching * touch.thin, point.separation,
       [&](double moment) { return distance_at(touch, point.feature, moment, time); },
-      [&](double distance) { return std::abs(distance) <= enough; });
+      [&](double distance) { return std::abs(distance) <= 1e-9 * enough; });
 }
 
 // Moves on by `cut` of a drift that was tried for `whole`; a point is the same where its feature is.
@@ -225,18 +225,14 @@ bool PlaneFront::closes_fast() const {
 
 // New points touch: the blow acts together with half a kick for the drift of `next` that follows. A bounce, which needs the blow by itself,
 // comes before that. The drift before was planned for `whole`.
-void PlaneFront::take_blow(double whole, double next, bool ends_step) {
+void PlaneFront::take_blow(double whole, double next) {
   const bool bounced = blow(false);
   for (PlaneBrick& brick : bricks_) {
     if (brick.moving) brick.acceleration = (2.0 / whole) * (brick.middle - brick.before_drift);
   }
   plan(next, !bounced, struck_now_.empty() ? nullptr : &strike_);
   for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].load = 0.0;
-  if (bounced) return;
-  if (ends_step) return stop_at_once();
-  for (PlaneBrick& brick : bricks_) {
-    if (brick.moving) brick.velocity = after_the_blow(brick, next);
-  }
+  if (!bounced) stop_at_once();
 }
 
 // The velocities right after a blow at the end of a step, where others read them: forces may act now that did not before it.

@@ -28,6 +28,9 @@ constexpr double kOverlapLeft = 0.9;
 
 constexpr int kBends = 3;  // So many times a blow is solved again with the turning that it makes.
 
+// Of a step. Since drifts begin anew at each strike, what a step leaves out does not come out even from strike to strike.
+constexpr double kDrift = 5.0 / 6.0;
+
 constexpr int kFloorOf = 1 << 20;  // In a pattern: the floor.
 
 double response(const PlaneBrick& brick, const Column<3>& j) {
@@ -38,59 +41,98 @@ double response(const PlaneBrick& brick, const Column<3>& j) {
 
 void PlaneFront::advance(double begin, std::span<const PushMoment> moments) {
   events_.clear();
-  list_those_that_strayed();
-  for (PlaneBrick& brick : bricks_) brick.velocity_before = brick.velocity;
-  wake_unsupported(begin);
-  const double end = begin + world_.step;
-  const int strides = moving_ <= kFew ? kStridesOfFew : 1;
-  stride_ = world_.step / strides;
-  double now = begin;
-  int cuts = 0, stride = 1;
-  std::size_t next = 0;
-  while (true) {
-    while (next < moments.size() && moments[next].time <= now) {
-      const PushMoment& moment = moments[next++];
-      planned_for_ = 0.0;
-      if (moment.push != nullptr) {
-        begin_push(*moment.push, now);
-      } else {
-        std::erase_if(forces_, [&](const Force& f) { return f.brick == moment.brick && f.end <= now; });
-        const int place = place_of(moment.brick);
-        if (place >= 0) bricks_[static_cast<std::size_t>(place)].pushed = false;
-      }
-    }
-    if (now >= end) break;
-    const double whole = stride < strides ? begin + stride * stride_ : end;
-    const double until = next < moments.size() ? std::min(whole, moments[next].time) : whole;
-    const double taken = part(now, until - now, cuts < world_.tolerances.cuts * moving_);
-    cuts += taken < until - now ? 1 : 0;
-    now = taken < until - now ? now + taken : until;
-    stride += now < whole ? 0 : 1;
+  rested_now_.clear();
+  if (!drift_.under_way) now_ = begin;
+  for (const PushMoment& moment : moments) {
+    go_on_to(moment.time);
+    interrupt();
+    apply(moment);
   }
-  retire(end);
+  go_on_to(begin + world_.step);
 }
 
-// One part of the step, of at most `time`; returns how long it was.
-double PlaneFront::part(double begin, double time, bool may_cut) {
-  if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, false);
-  try_drift(time);
-  const double cut = may_cut ? first_impact(time) : time;
-  note_arrivals(begin, cut, time);
-  accept_drift(cut, time);
-  const double now = begin + cut;
+void PlaneFront::apply(const PushMoment& moment) {
+  planned_for_ = 0.0;
+  if (moment.push != nullptr) return begin_push(*moment.push, moment.time);
+  std::erase_if(forces_, [&](const Force& f) { return f.brick == moment.brick && f.end <= moment.time; });
+  const int place = place_of(moment.brick);
+  if (place >= 0) bricks_[static_cast<std::size_t>(place)].pushed = false;
+}
+
+// Drifts until the one that goes on beyond this moment.
+void PlaneFront::go_on_to(double moment) {
+  while (moving_ > 0) {
+    if (repeat_.on && repeat_to(moment)) return;
+    if (!drift_.under_way) begin_drift(moment);
+    drift_.done = std::min(moment - now_, drift_.cut);
+    if (now_ + drift_.cut > moment + 1e-9 * world_.step) return note_arrivals(drift_.done);
+    end_drift();
+  }
+  now_ = moment;
+}
+
+// Drifts end with the step where its energies are small, or the work of a force must be known.
+bool PlaneFront::keeps_step() const { return moving_ <= kFew || !forces_.empty(); }
+
+double PlaneFront::stride() const { return keeps_step() ? world_.step / (moving_ <= kFew ? kStridesOfFew : 1) : kDrift * world_.step; }
+
+// Elsewhere a drift is equally long wherever it begins, and so after a strike all goes as it went after the strike before.
+void PlaneFront::begin_drift(double moment) {
+  const double left = moment - now_;
+  const double whole = keeps_step() && left > 1e-6 * world_.step ? std::min(stride(), left) : stride();
+  if (std::abs(planned_for_ - whole) > 1e-9 * world_.step) plan(whole, false);
+  try_drift(whole);
+  drift_ = {.under_way = true, .whole = whole, .cut = cuts_ < world_.tolerances.cuts * moving_ ? first_impact(whole) : whole};
+  if (even_ > 0) write_down_places();
+}
+
+void PlaneFront::end_drift() {
+  const double whole = drift_.whole, cut = drift_.cut;
+  note_arrivals(cut);
+  const Marks before = marks();
+  accept_drift(cut, whole);
+  drift_ = {};
+  now_ += cut;
+  since_look_ += cut;
+  cuts_ += cut < whole ? 1 : 0;
+  planned_for_ = cut < whole ? 0.0 : planned_for_;
   struck_now_.clear();
   const bool fresh = activate_new_points();
-  wake_struck(now);
-  const double next = cut < time ? time - cut : stride_;
-  if (!struck_now_.empty() || (fresh && (cut < time || closes_fast()))) {
-    take_blow(time, next, cut == time);
-    note_struck(now);
-    note_landed(now);
-  } else if (cut == time) {
-    leap(time);
-    wake_struck(now);
+  wake_struck(now_);
+  if (!struck_now_.empty() || (fresh && (cut < whole || closes_fast()))) {
+    take_blow(whole, stride());
+    note_struck(now_);
+    note_landed(now_);
+  } else if (cut == whole) {
+    leap(whole);
+    wake_struck(now_);
   }
-  return cut;
+  if (since_look_ > 0.999 * kDrift * world_.step) look_around();
+  if (even_ > 0) write_down_end(before);
+  if (!struck_now_.empty()) after_strike();
+}
+
+// Where something happens amid a drift that the drift does not know of.
+void PlaneFront::interrupt() {
+  if (repeat_.on) return break_off();
+  if (!drift_.under_way) return;
+  even_ = 0;
+  accept_drift(drift_.done, drift_.whole);
+  activate_new_points();
+  now_ += drift_.done;
+  since_look_ += drift_.done;
+  planned_for_ = 0.0;
+  drift_ = {};
+}
+
+// Once a step, at the end of a drift: who has come to rest, who is near, who has lost what it leans on.
+void PlaneFront::look_around() {
+  retire(now_);
+  list_those_that_strayed();
+  for (PlaneBrick& brick : bricks_) brick.velocity_before = brick.velocity;
+  since_look_ = 0.0;
+  cuts_ = 0;
+  wake_unsupported(now_);
 }
 
 void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
@@ -286,7 +328,7 @@ void PlaneFront::keep(Pattern& pattern, int head, int most) const {
 
 // A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
 void PlaneFront::leap(double time) {
-  const double next = stride_;
+  const double next = stride();
   make_rows(&PlaneMemory::kick);
   const int head = place_of(last_struck_);
   Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;

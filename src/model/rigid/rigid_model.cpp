@@ -34,6 +34,7 @@ class RigidModel final : public Model {
         crew_(config.crew != nullptr ? *config.crew : alone_) {
     world_.step = step_;
     world_.every_brick_moves = config.every_brick_moves;
+    world_.repeats = config.repeats;
     world_.profile = config.profile;
     plan_pushes();
     if (config.every_brick_moves) wake_all();
@@ -78,6 +79,9 @@ class RigidModel final : public Model {
   Crew alone_{1};
   Crew& crew_;
   std::vector<Event> events_;
+  std::vector<Echo> echoes_;
+  std::vector<BrickId> echoed_;
+  std::vector<UnseenMotion> unseen_;
   mutable std::vector<Contact> contacts_;  // Filled when somebody asks.
   Hash hash_;
 };
@@ -139,6 +143,7 @@ Front& RigidModel::general(std::size_t number) {
     auto front = std::make_unique<Front>(world_, static_cast<std::int32_t>(number));
     front->adopt(bricks, forces);
     front->enter_all();
+    plane->hand_out(echoes_, echoed_, unseen_);
     fronts_[number] = std::move(front);
   }
   return static_cast<Front&>(*fronts_[number]);
@@ -252,6 +257,9 @@ void RigidModel::settle() {
 // know what each did, gather what happened, check that it is finite.
 Status RigidModel::step() {
   const double begin = static_cast<double>(count_) * step_;
+  echoes_.clear();
+  echoed_.clear();
+  unseen_.clear();
   begin_pushes(begin + step_);
   join_fronts();
   part_fronts();
@@ -270,6 +278,7 @@ void RigidModel::gather() {
   for (const Turn& turn : turns_) {
     events_.insert(events_.end(), turn.front->events().begin(), turn.front->events().end());
     hash_.add(turn.hash);
+    turn.front->hand_out(echoes_, echoed_, unseen_);
   }
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& l, const Event& r) { return l.time != r.time ? l.time < r.time : l.brick < r.brick; });
@@ -289,6 +298,9 @@ void RigidModel::read(Frame& out) const {
   out.time = static_cast<double>(count_) * step_;
   out.hinged.clear();
   out.kinks.clear();
+  out.echoes = echoes_;
+  out.echoed = echoed_;
+  out.unseen = unseen_;
   out.energy = {.kinetic = 0.0, .potential = world_.resting_energy, .push_work = world_.push_work};
   std::size_t count = 0;
   for (Turn& turn : turns_) {
@@ -299,8 +311,11 @@ void RigidModel::read(Frame& out) const {
   out.free.resize(count);
   crew_.each(turns_.size(), [&](std::size_t i) {
     Turn& turn = turns_[i];
-    turn.front->read(std::span(out.free).subspan(turn.first, turn.count), turn.energy);
+    turn.front->read(std::span(out.free).subspan(turn.first, turn.count), out.energy_wanted ? &turn.energy : nullptr);
   });
+  if (out.last) {
+    for (const Turn& turn : turns_) turn.front->tell_unseen(out.unseen);
+  }
   for (const Turn& turn : turns_) {
     out.energy.kinetic += turn.energy.kinetic;
     out.energy.potential += turn.energy.potential;

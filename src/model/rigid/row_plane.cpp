@@ -34,13 +34,18 @@ bool put_down_in(const RowPlane& plane, const Layout& layout, BrickId brick) {
          std::abs(dot(put.foot - plane.origin, plane.across)) < kInPlane * thinnest(kind);
 }
 
+double stand_along(const RowPlane& plane, const Layout& layout, BrickId brick) {
+  return dot(layout.bricks[static_cast<std::size_t>(brick)].foot - plane.origin, plane.along);
+}
+
 PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, const Pose& pose) {
   const Quat turned = pose.orientation * conjugate(standing_pose(layout, brick).orientation);
   const double about = turned.x * plane.across.x + turned.y * plane.across.y;
   const double roll = turned.x * plane.along.x + turned.y * plane.along.y;
   const Vec3 apart = pose.position - plane.origin;
   PlanePose out;
-  out.place = {dot(apart, plane.along), pose.position.z, 2.0 * arc_tangent(turned.w < 0.0 ? -about : about, std::abs(turned.w))};
+  const Vec3 moved = pose.position - layout.bricks[static_cast<std::size_t>(brick)].foot;
+  out.place = {dot(moved, plane.along), pose.position.z, 2.0 * arc_tangent(turned.w < 0.0 ? -about : about, std::abs(turned.w))};
   out.lateral = dot(apart, plane.across);
   const SinCos half = sin_cos(0.5 * out.place.turn);
   out.upright = Quat{half.cos, -half.sin * plane.across.x, -half.sin * plane.across.y, 0.0} * pose.orientation;
@@ -48,15 +53,12 @@ PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, c
   return out;
 }
 
-InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, double half_width) {
-  const auto at = static_cast<std::size_t>(brick);
-  const Brick& put = world.layout.bricks[at];
+InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, const Pose& pose, bool rests, double half_width) {
+  const Brick& put = world.layout.bricks[static_cast<std::size_t>(brick)];
   const BrickKind& kind = world.layout.kinds[put.kind];
-  const Pose& pose = world.pose[at];
   const PlanePose apart = in_plane(plane, world.layout, brick, pose);
   const double thin = thinnest(kind);
   const bool fits = kind.shape == Shape::box && put.foot.z <= 0.0 && heads_along(plane, put);
-  const bool rests = world.phase[at] == Phase::resting;
   InPlane out;
   out.lies = fits && std::abs(apart.lateral) < kInPlane * thin && apart.swing < kInPlane;
   if (fits && rests) {

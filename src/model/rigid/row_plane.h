@@ -19,7 +19,13 @@ RowPlane plane_of_row(const Layout& layout, BrickId brick);
 /// Whether a brick was put down in this plane: a box on the floor, across it.
 bool put_down_in(const RowPlane& plane, const Layout& layout, BrickId brick);
 
-/// A pose taken apart: where it is in the plane, and what is left.
+/// Pitches that differ by less are the same: rounding of places [m].
+inline constexpr double kSamePitch = 1e-9;
+
+/// How far along the plane a brick was put down [m].
+double stand_along(const RowPlane& plane, const Layout& layout, BrickId brick);
+
+/// A pose taken apart: where it is in the plane, along it against where it was put down, and what is left.
 struct PlanePose {
   PlaneVec place;
   double lateral = 0.0;  ///< [m]
@@ -32,9 +38,10 @@ PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, c
 struct InPlane {
   bool lies = false;    ///< In the plane; one that rests after it has moved freely, to Tolerances::in_plane.
   bool misses = false;  ///< Its width does not reach any of the plane's bricks.
-  PlaneVec place;
+  PlaneVec place;       ///< Along the plane against where it was put down.
 };
-/// `half_width` is how far the bricks of the plane reach to its sides [m].
-InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, double half_width);
+/// `half_width` is how far the bricks of the plane reach to its sides [m]; `pose` is where the brick is, standing or, if it `rests`,
+/// fallen.
+InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, const Pose& pose, bool rests, double half_width);
 
 }  // namespace topple::rigid

@@ -16,6 +16,15 @@ void Wave::enter_leavings() {
   ledger_.left.clear();
 }
 
+void Wave::hand_out(std::vector<Echo>& echoes, std::vector<BrickId>& echoed, std::vector<UnseenMotion>& unseen) {
+  echoes.insert(echoes.end(), echoes_.begin(), echoes_.end());
+  echoed.insert(echoed.end(), echoed_.begin(), echoed_.end());
+  unseen.insert(unseen.end(), unseen_.begin(), unseen_.end());
+  echoes_.clear();
+  echoed_.clear();
+  unseen_.clear();
+}
+
 // Those that move first: of two fronts that took one brick in one step, that one has it which set it in motion.
 void Wave::enter_takings(bool of_those_that_move) {
   if (ledger_.taken.empty()) return;

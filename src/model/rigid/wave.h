@@ -58,15 +58,19 @@ class Wave {
   virtual BrickId not_finite() const = 0;
   /// How many bricks moved in the last step.
   virtual std::size_t motion_count() const = 0;
-  /// Writes those bricks, so many, and adds the energy of what moves.
-  virtual void read(std::span<FreeMotion> out, Energy& energy) const = 0;
+  /// Writes those bricks, so many, and adds the energy of what moves, where it is wanted.
+  virtual void read(std::span<FreeMotion> out, Energy* energy) const = 0;
   virtual void read(std::vector<Contact>& out) const = 0;
   /// Whether it cannot go on by itself: bricks of another front are within reach, or what it cannot compute.
   virtual bool must_join() const = 0;
+  /// Adds what has moved without being among those bricks, as far as it is not to be echoed.
+  virtual void tell_unseen(std::vector<UnseenMotion>& /*out*/) const {}
   virtual bool general() const = 0;  ///< Six degrees of freedom a brick: its steps are long.
 
   std::int32_t number() const { return number_; }
   std::span<const Event> events() const { return events_; }
+  /// What is to be told of motions that were not among those of their steps; empty afterwards.
+  void hand_out(std::vector<Echo>& echoes, std::vector<BrickId>& echoed, std::vector<UnseenMotion>& unseen);
   std::span<const std::int32_t> met() const { return met_; }  ///< Other fronts whose bricks are within reach.
 
   // What it did, entered in the world; between steps, and for one front after the other.
@@ -93,6 +97,9 @@ class Wave {
   std::int32_t number_ = 0;
   Ledger ledger_;
   std::vector<Event> events_;
+  std::vector<Echo> echoes_;
+  std::vector<BrickId> echoed_;
+  std::vector<UnseenMotion> unseen_;
   std::vector<std::int32_t> met_;
 };
 

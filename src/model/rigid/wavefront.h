@@ -40,7 +40,7 @@ class Front final : public Wave {
   void add_to(Hash& hash) const override;
   BrickId not_finite() const override;
   std::size_t motion_count() const override;
-  void read(std::span<FreeMotion> out, Energy& energy) const override;
+  void read(std::span<FreeMotion> out, Energy* energy) const override;
   void read(std::vector<Contact>& out) const override;
   bool must_join() const override { return !met_.empty(); }
   bool general() const override { return true; }

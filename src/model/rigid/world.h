@@ -74,6 +74,7 @@ struct World {
   bool stacked = false;         ///< Some bricks stand on others.
   bool balls = false;           ///< Some are balls.
   bool every_brick_moves = false;
+  bool repeats = true;  ///< What an even row does again is not computed again.
   Profile* profile = nullptr;
 
   /// Where a brick may be in its front's list. Two fronts may take one brick in one step, before it is known whose it is; so a hint is
