@@ -38,6 +38,8 @@ class TrackStore {
   BrickId brick_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].of(); }
   /// The same for pieces that share their knots.
   const std::uint8_t* code_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].code; }
+  /// Whether its knots are those of a free piece that others echo, or may.
+  bool is_echoed(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].brick < 0; }
   double start_of(std::int32_t index) const { return pieces_[static_cast<std::size_t>(index)].start; }
 
   /// The last piece of a brick, and the piece of the same brick before this one; kNone if there is none.
@@ -51,7 +53,7 @@ class TrackStore {
   struct Piece {
     double start;
     const std::uint8_t* code;
-    BrickId brick;  // ~brick where the code is one that others echo, which is never let go.
+    BrickId brick;  // ~brick where others echo the code, which is never let go.
     std::int32_t previous;
 
     BrickId of() const { return brick < 0 ? ~brick : brick; }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
 #include "recording/crc32.h"
 #include "recording/format.h"
@@ -271,7 +272,8 @@ std::vector<std::uint8_t> RecordingWriter::more() {
   Sink sink(bytes);
   Tracks<HingedKnot> hinged;
   Tracks<FreeKnot> free;
-  Recent recent, recent_free;
+  Recent recent;
+  std::unordered_map<const std::uint8_t*, std::uint32_t> echoed;  // Free tracks that others echo, by their code.
   const TrackStore& store = store_->tracks;
   const auto tracks = static_cast<std::int64_t>(store.size());
   for (const std::int64_t last = std::min(tracks, tracks_ + kTracksAtOnce); tracks_ < last; ++tracks_) {
@@ -282,16 +284,18 @@ std::vector<std::uint8_t> RecordingWriter::more() {
       hinged.heads.push_back({start, brick, format::kKnotsOfTrack + static_cast<std::uint32_t>(same)});
       continue;
     }
-    if (const std::int64_t same = recent_free.track_of(store.code_of(index)); same >= 0) {
-      free.heads.push_back({start, brick, format::kKnotsOfTrack + static_cast<std::uint32_t>(same)});
-      continue;
+    if (store.is_echoed(index)) {
+      const auto [known, is_new] = echoed.try_emplace(store.code_of(index), static_cast<std::uint32_t>(free.heads.size()));
+      if (!is_new) {
+        free.heads.push_back({start, brick, format::kKnotsOfTrack + known->second});
+        continue;
+      }
     }
     const TrackStore::Count count = store.read(index, hinged.knots, free.knots);
     if (count.hinged > 0) {
       recent.add(store.code_of(index), hinged.heads.size());
       hinged.heads.push_back({start, brick, static_cast<std::uint32_t>(count.hinged)});
     }
-    if (count.free > 0) recent_free.add(store.code_of(index), free.heads.size());
     if (count.free > 0) free.heads.push_back({start, brick, static_cast<std::uint32_t>(count.free)});
   }
   if (!hinged.heads.empty()) write_hinged(sink, hinged);
