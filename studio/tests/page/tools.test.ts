@@ -103,10 +103,8 @@ test('the brush colours single bricks, one stroke is one step of undo', async ()
   await drag([-150, 0], [150, 0]);
   await settled();
   const before = await text();
-  await page.keyboard.press('Escape');
-  await page.keyboard.press('Escape'); // nothing is chosen: the palette is the brush's
+  await tool('Brush'); // nothing is chosen any more: the palette is the brush's
   await page.getByRole('button', { name: 'Colour #17a398' }).click();
-  await tool('Brush');
   const at = async (brick: number): Promise<{ x: number; y: number }> => (await page.evaluate((b) => window.topple.placeOf(b), brick))!;
   const [a, b] = [await at(3), await at(5)];
   await page.mouse.move(a.x, a.y);
