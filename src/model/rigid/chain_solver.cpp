@@ -7,7 +7,7 @@ namespace topple::rigid {
 
 namespace {
 
-constexpr double kWorst = 0.7;  // States that are wrong by this share of the worst of their bodies change together.
+constexpr double kWorst = 0.8;  // States that are wrong by this share of the worst of their bodies change together.
 // The way that a point slides may be wrong by so many tolerances: it is found anew in the next solution.
 constexpr double kTurned = 30.0;
 
