@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "model/rigid/plane_contact.h"
@@ -86,6 +87,10 @@ struct PlaneState {
   double since_look = 0.0;   ///< Time since neighbours and rests were looked at [s],
   int cuts = 0;              ///< and impacts located in it.
   bool rested = false;       ///< Some brick came to rest since the lists were made.
+
+  auto all() {
+    return std::tie(bricks, touches, near_pairs, strike, leaps, last_struck, since_strike, planned_for, since_look, cuts, rested);
+  }
 };
 
 /// What a front did from one strike to the next. Bricks are numbered from the one that was struck at its beginning.

@@ -72,9 +72,14 @@ class PlaneFront final : public Wave {
   };
   void after_strike();
   bool is_even(const Struck& struck);
-  void keep();
   bool is_as_kept() const;
   void take_kept(BrickId struck);
+  void rename_kept(BrickId struck);
+  /// In the order of PlaneState::all().
+  auto state() {
+    return std::tie(bricks_, touches_, near_pairs_, strike_, leaps_, last_struck_, since_strike_, planned_for_, since_look_, cuts_,
+                    rested_);
+  }
   struct Marks {
     std::size_t taken, left, woken, rested, events, still;
   };

@@ -235,7 +235,7 @@ void PlaneFront::take_blow(double whole, double next) {
   if (!bounced) stop_at_once();
 }
 
-// The velocities right after a blow at the end of a step, where others read them: forces may act now that did not before it.
+// The velocities right after a blow: forces may act now that did not before it, and others read them where a step ends in the drift.
 void PlaneFront::stop_at_once() {
   compression_ = rows_;
   for (PlaneRow& row : compression_) {

@@ -83,7 +83,7 @@ void PlaneFront::after_strike() {
     take_kept(struck.brick);
     if (world_.repeats && next_is_alike()) begin_repeat();
   } else if (even_ > 0) {
-    keep();
+    kept_.all() = state();
   }
   if (repeat_.on) return;
   cycle_.first = struck.brick;
@@ -100,20 +100,6 @@ bool PlaneFront::is_even(const Struck& struck) {
   way_ = way;
   even_pitch_ = pitch;
   return even;
-}
-
-void PlaneFront::keep() {
-  kept_.bricks = bricks_;
-  kept_.touches = touches_;
-  kept_.near_pairs = near_pairs_;
-  kept_.strike = strike_;
-  kept_.leaps = leaps_;
-  kept_.last_struck = last_struck_;
-  kept_.since_strike = since_strike_;
-  kept_.planned_for = planned_for_;
-  kept_.since_look = since_look_;
-  kept_.cuts = cuts_;
-  kept_.rested = rested_;
 }
 
 bool PlaneFront::is_as_kept() const {
@@ -136,21 +122,14 @@ bool PlaneFront::is_as_kept() const {
 
 // From now on all is as it was, but for the names.
 void PlaneFront::take_kept(BrickId struck) {
-  const BrickId apart = struck - kept_.last_struck;
-  for (PlaneBrick& brick : kept_.bricks) brick.id += apart;
-  kept_.last_struck = struck;
-  bricks_ = kept_.bricks;
+  rename_kept(struck);
+  state() = kept_.all();
   for (std::size_t i = 0; i < bricks_.size(); ++i) world_.note_place(bricks_[i].id, static_cast<int>(i));
-  touches_ = kept_.touches;
-  near_pairs_ = kept_.near_pairs;
-  strike_ = kept_.strike;
-  leaps_ = kept_.leaps;
-  last_struck_ = struck;
-  since_strike_ = kept_.since_strike;
-  planned_for_ = kept_.planned_for;
-  since_look_ = kept_.since_look;
-  cuts_ = kept_.cuts;
-  rested_ = kept_.rested;
+}
+
+void PlaneFront::rename_kept(BrickId struck) {
+  for (PlaneBrick& brick : kept_.bricks) brick.id += struck - kept_.last_struck;
+  kept_.last_struck = struck;
 }
 
 // ---- A cycle is written down, drift by drift ----
@@ -321,8 +300,7 @@ void PlaneFront::end_repeat() {
   tell_unseen(unseen_);
   repeat_.on = false;
   drift_ = {};
-  for (PlaneBrick& brick : kept_.bricks) brick.id += last_struck_ - kept_.last_struck;
-  kept_.last_struck = last_struck_;
+  rename_kept(last_struck_);
   cycle_.first = last_struck_;
   cycle_.count = 0;
 }
