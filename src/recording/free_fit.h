@@ -31,31 +31,38 @@ class FreeFit {
 
  private:
   using Four = float __attribute__((vector_size(16)));
-  /// A step, its time and place against the last knot.
+  using Two = double __attribute__((vector_size(16)));
+  /// A time [s] and a place [m], in the order of FreeKnot.
+  struct Moment {
+    Two time_x{};
+    Two yz{};
+  };
+  /// A step against the last knot. Its numbers are in the order of FreeKnot, so that they are read and kept four at a time.
   struct Sample {
-    Four place{};  ///< x, y, z [m]; the fourth is its time [s].
-    Four turn{};   ///< w, x, y, z.
-    Four velocity{};
-    Four spin{};  ///< The derivative of `turn` by time [1/s].
-    Vec3 rate;    ///< Angular velocity [rad/s].
+    Four place{};     ///< Its time [s], and x, y, z [m].
+    Four turn{};      ///< w, x, y, z.
+    Four velocity{};  ///< The first part of the angular velocity, and then x, y, z [m/s].
+    Four spin{};      ///< The derivative of `turn` by time [1/s].
+    Two rate_yz{};    ///< The rest of the angular velocity [rad/s],
+    double rate_x{};  ///< and its first part in full.
   };
 
   FreeKnot knot_of(const Sample& sample) const;
+  void test();
   bool fits(std::size_t count) const;
   std::size_t longest(std::size_t good, std::size_t bad) const;
   void cut(std::size_t count);
   void push_knot(const FreeKnot& knot);
+  double start() const { return put_.time_x[0]; }  // Of this piece [s].
   void finish_piece();
 
   BrickId brick_ = kNoBrick;
   bool round_ = true;         // Knots are multiples of FreeSteps.
   float most_square_ = 0.0F;  // Of what fits() sums up [m^2].
   float reach_square_ = 0.0F;
-  Vec3 put_;
-  double start_ = 0.0;      // Of this piece [s].
-  double base_time_ = 0.0;  // Of the last knot, since start_ [s].
-  Vec3 base_place_;         // Of the last knot, as it has it [m].
-  std::size_t good_ = 0;    // So many samples are known to fit.
+  Moment put_;            // The start of this piece, and where the brick was put down.
+  Moment last_;           // The last knot against that, as it has it.
+  std::size_t good_ = 0;  // So many samples are known to fit.
   std::size_t next_test_ = 0;
   Sample base_;  // The last knot, at place and time 0.
   std::vector<Sample> samples_;

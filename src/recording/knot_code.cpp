@@ -1,9 +1,10 @@
 #include "recording/knot_code.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+
+#include "recording/free_code.h"
 
 namespace topple {
 namespace {
@@ -53,43 +54,6 @@ HingedKnot to_knot(const Whole& whole) {
           static_cast<float>(whole.rate * KnotSteps::kRate), static_cast<float>(whole.acceleration * KnotSteps::kAcceleration)};
 }
 
-/// A free knot in steps, in the order of its members.
-struct WholeFree {
-  static constexpr std::size_t kParts = 14;
-  std::array<std::int32_t, kParts> part{};
-};
-constexpr std::array<float FreeKnot::*, WholeFree::kParts> kMembers = {
-    &FreeKnot::time, &FreeKnot::x,  &FreeKnot::y,  &FreeKnot::z,  &FreeKnot::qw, &FreeKnot::qx, &FreeKnot::qy,
-    &FreeKnot::qz,   &FreeKnot::vx, &FreeKnot::vy, &FreeKnot::vz, &FreeKnot::wx, &FreeKnot::wy, &FreeKnot::wz};
-constexpr std::array<double, WholeFree::kParts> kSteps = {
-    FreeSteps::kTime,     FreeSteps::kPlace, FreeSteps::kPlace, FreeSteps::kPlace,    FreeSteps::kTurn,
-    FreeSteps::kTurn,     FreeSteps::kTurn,  FreeSteps::kTurn,  FreeSteps::kVelocity, FreeSteps::kVelocity,
-    FreeSteps::kVelocity, FreeSteps::kRate,  FreeSteps::kRate,  FreeSteps::kRate};
-// Velocities before places: what is expected of a place depends on them.
-constexpr std::array<std::size_t, WholeFree::kParts> kOrder = {0, 8, 9, 10, 1, 2, 3, 4, 5, 6, 7, 11, 12, 13};
-
-inline bool to_whole(const FreeKnot& knot, WholeFree& whole) {
-  for (std::size_t i = 0; i < WholeFree::kParts; ++i) {
-    if (!to_steps(knot.*kMembers[i], kSteps[i], whole.part[i])) return false;
-  }
-  return true;
-}
-
-inline FreeKnot to_knot(const WholeFree& whole) {
-  FreeKnot knot;
-  for (std::size_t i = 0; i < WholeFree::kParts; ++i) knot.*kMembers[i] = static_cast<float>(whole.part[i] * kSteps[i]);
-  return knot;
-}
-
-// What part i is expected to be; of `now` those before it in kOrder are known.
-inline std::int32_t expected(const WholeFree& last, const WholeFree& now, std::size_t i) {
-  if (i < 1 || i > 3) return last.part[i];
-  const double span = (now.part[0] - last.part[0]) * FreeSteps::kTime;
-  const double mean = 0.5 * FreeSteps::kVelocity * (1.0 * last.part[i + 7] + now.part[i + 7]);
-  const double change = mean * span / FreeSteps::kPlace;
-  return std::abs(change) < 0x1p24 ? static_cast<std::int32_t>(last.part[i] + change) : last.part[i];
-}
-
 // Seven bits a byte, the lowest first; the eighth says that more follow. The sign is the lowest bit.
 constexpr std::size_t kMostBytes = 5;  // Of a number.
 inline void put(std::uint8_t*& out, std::uint32_t value) {
@@ -123,27 +87,6 @@ inline std::uint32_t get(const std::uint8_t*& code) {
 inline std::int32_t get_signed(const std::uint8_t*& code) {
   const std::uint32_t value = get(code);
   return static_cast<std::int32_t>(value >> 1) ^ -static_cast<std::int32_t>(value & 1U);
-}
-
-// The next knot of a free track, part by part in kOrder.
-inline void get_next(const std::uint8_t*& code, WholeFree& whole) {
-  const WholeFree last = whole;
-  const auto as_before = [&](std::size_t i) { whole.part[i] += get_signed(code); };
-  const auto as_expected = [&](std::size_t i) { whole.part[i] = expected(last, whole, i) + get_signed(code); };
-  as_before(0);
-  as_before(8);
-  as_before(9);
-  as_before(10);
-  as_expected(1);
-  as_expected(2);
-  as_expected(3);
-  as_before(4);
-  as_before(5);
-  as_before(6);
-  as_before(7);
-  as_before(11);
-  as_before(12);
-  as_before(13);
 }
 
 constexpr std::size_t kHead = kMostBytes + 1;
@@ -195,19 +138,12 @@ void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out) {
 
 void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out) {
   const std::size_t start = out.size();
-  out.resize(start + kHead + WholeFree::kParts * kMostBytes * knots.size());
+  out.resize(start + kHead + free_code::kMostBytes * knots.size());
   std::uint8_t* next = out.data() + start;
   head(next, knots.size(), Way::free_rounded);
-  WholeFree last;
-  for (const FreeKnot& knot : knots) {
-    WholeFree now;
-    if (!to_whole(knot, now) || now.part[0] < last.part[0]) {
-      out.resize(start);
-      return put_floats(knots, Way::free, out);
-    }
-    // Time, place, turn and its rates in the order of FreeKnot; a place against what the mean of two velocities makes of it.
-    for (std::size_t i = 0; i < WholeFree::kParts; ++i) put_signed(next, now.part[kOrder[i]] - expected(last, now, kOrder[i]));
-    last = now;
+  if (!free_code::put(knots, next)) {
+    out.resize(start);
+    return put_floats(knots, Way::free, out);
   }
   out.resize(static_cast<std::size_t>(next - out.data()));
 }
@@ -230,9 +166,7 @@ std::optional<FreeKnot> last_free_knot(const std::uint8_t* code) {
     return last;
   }
   if (way != Way::free_rounded) return std::nullopt;
-  WholeFree whole;
-  for (std::size_t i = 0; i < count; ++i) get_next(code, whole);
-  return to_knot(whole);
+  return free_code::get_last(code);
 }
 
 void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vector<FreeKnot>& free) {
@@ -246,11 +180,7 @@ void decode(const std::uint8_t* code, std::vector<HingedKnot>& hinged, std::vect
   }
   if (way == Way::free_rounded) {
     free.resize(before + count);
-    WholeFree whole;
-    for (FreeKnot& knot : std::span(free).subspan(before)) {
-      get_next(code, whole);
-      knot = to_knot(whole);
-    }
+    free_code::get(code, std::span(free).subspan(before));
     return;
   }
   hinged.resize(before + count);

@@ -1,4 +1,4 @@
-/// How knots are kept in memory: hinged ones as whole multiples of a small step each, the differences from knot to knot in as few bytes
+/// How knots are kept in memory: as whole multiples of a small step each, the differences from knot to knot in as few bytes
 /// as they need. A million bricks have some thirty million knots; as floats alone they would take half a gigabyte.
 #pragma once
 
@@ -38,13 +38,13 @@ inline double rounded(double value, double step) {
   return (value / step + kShift - kShift) * step;
 }
 
-/// Appends the code of a track's knots. Exact: knots that are not multiples of the steps are kept as floats.
+/// Appends the code of a track's knots. Exact: knots that are not multiples of the steps, or move too far, are kept as floats.
 void encode(std::span<const HingedKnot> knots, std::vector<std::uint8_t>& out);
 void encode(std::span<const FreeKnot> knots, std::vector<std::uint8_t>& out);
 
 /// The last knot of a hinged track, which costs nothing to read: most questions are about where a brick rests. None of a free track.
 std::optional<HingedKnot> last_hinged_knot(const std::uint8_t* code);
-/// The last knot of a free track, which is found a good deal faster than all of them. None of a hinged track.
+/// The last knot of a free track, which is read without the others too. None of a hinged track.
 std::optional<FreeKnot> last_free_knot(const std::uint8_t* code);
 
 /// Appends to one of the two what encode() made.
