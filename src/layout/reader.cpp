@@ -66,7 +66,7 @@ class Reader {
 
   void read_parts(const Section& top, const Surface& surface) {
     std::vector<std::optional<PartPlan>> plans;
-    const std::size_t before = problems_.count();
+    const std::size_t problems_before = problems_.count();
     const auto read_all = [&](std::string_view key, std::span<const std::string_view> known, auto read_one) {
       int number = 0;
       for (Section& section : sections_of(top, key, known, problems_)) {
@@ -83,7 +83,7 @@ class Reader {
     read_all("pyramid", keys::kPyramid, read_pyramid);
     read_all("ball", keys::kBall, [&](Section& section, std::vector<BrickKind>& kinds) { return read_ball(section, kinds, surface); });
     parts_good_ = std::all_of(plans.begin(), plans.end(), [](const auto& plan) { return plan.has_value(); });
-    if (plans.empty() && problems_.count() == before) {
+    if (plans.empty() && problems_.count() == problems_before) {
       problems_.add({1, 1, -1}, "", "the layout is empty; it needs at least one [[row]], [[curve]] or [[brick]]");
     }
     if (plans.empty()) parts_good_ = false;
@@ -91,7 +91,8 @@ class Reader {
       if (plan) plans_.push_back(std::move(*plan));
     }
     const auto order = [](const PartPlan& plan) { return std::tie(plan.place.line, plan.place.column, plan.path); };
-    std::sort(plans_.begin(), plans_.end(), [&](const PartPlan& a, const PartPlan& b) { return order(a) < order(b); });
+    const auto before = [&](const PartPlan& a, const PartPlan& b) { return order(a) < order(b); };
+    if (!std::is_sorted(plans_.begin(), plans_.end(), before)) std::sort(plans_.begin(), plans_.end(), before);
   }
 
   void read_noise(const Section& top) {

@@ -42,6 +42,11 @@ class Scanner {
       return stop("the file has " + count_text(static_cast<long long>(text_.size())) + " bytes, at most " + count_text(kMaxBytes) +
                   " are read");
     while (at_ < text_.size()) {
+      if (quote_.empty() && skip_ == 0 && is_plain(text_[at_])) {
+        ++at_;
+        ++column_;
+        continue;
+      }
       const std::size_t bytes = character_bytes(text_.substr(at_));
       if (bytes == 0) {
         return stop("not UTF-8: byte " + std::to_string(at_) + " (counted from 0) is 0x" +
@@ -66,6 +71,11 @@ class Scanner {
   static constexpr int kMaxDepth = 32;
   // A value takes about 150 bytes while the document is read.
   static constexpr int kMaxValues = 8'000'000;
+
+  /// Outside of strings and comments these mean nothing to it.
+  static bool is_plain(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == ' ';
+  }
 
   std::optional<Unreadable> stop(std::string why) const { return Unreadable{line_, column_, std::move(why)}; }
 

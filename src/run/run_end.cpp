@@ -39,6 +39,10 @@ Rest rest_of(const Recording& recording, BrickId brick) {
   return {tilt(layout, brick, after.orientation), tip_angle(size), slide, size.along};
 }
 
+double tip_angle_of(const Layout& layout, BrickId brick) {
+  return tip_angle(extents(layout.kind_of(brick), layout.bricks[static_cast<std::size_t>(brick)].stance));
+}
+
 /// Whether a brick that the wave has reached (10 degrees) is always past its tip angle, so that nobody need look.
 bool all_tip_before_arrival(const Layout& layout) {
   return std::all_of(layout.bricks.begin(), layout.bricks.end(),
@@ -47,13 +51,14 @@ bool all_tip_before_arrival(const Layout& layout) {
 
 /// The last brick that was pushed or struck and rests short of its tip angle.
 BrickId last_not_fallen(const Recording& recording) {
+  const Layout& layout = recording.layout();
   for (std::int64_t i = recording.event_count() - 1; i >= 0; --i) {
     const Event event = recording.event(i);
     if (event.kind != EventKind::pushed && event.kind != EventKind::struck) continue;
     // What a ball or a structure does is no wave that could die.
-    if (const Part* part = recording.layout().part_of(event.brick); part != nullptr && !part->line) continue;
-    const Rest rest = rest_of(recording, event.brick);
-    if (rest.tilt <= rest.tip_angle) return event.brick;
+    if (const Part* part = layout.part_of(event.brick); part != nullptr && !part->line) continue;
+    const Pose rests = recording.at(event.brick, std::numeric_limits<double>::infinity()).pose;
+    if (tilt(layout, event.brick, rests.orientation) <= tip_angle_of(layout, event.brick)) return event.brick;
   }
   return kNoBrick;
 }
