@@ -94,6 +94,12 @@ void FreeFit::open(BrickId brick, double time, const FreeKnot& first, const Vec3
   knots_.clear();
   FreeKnot knot = first;
   knot.time = 0.0F;
+  if (round_) {
+    // The turn of a brick that was put down askew is no multiple of a step; all else is, and the track is kept in steps or not at all.
+    for (const auto part : {&FreeKnot::qw, &FreeKnot::qx, &FreeKnot::qy, &FreeKnot::qz}) {
+      knot.*part = static_cast<float>(topple::rounded(double{knot.*part}, FreeSteps::kTurn));
+    }
+  }
   push_knot(knot);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "recording/knot_code.h"
 #include "recording/scripted_model.h"
 
 using namespace topple;
@@ -182,6 +183,22 @@ TEST_CASE("a free brick that is woken again goes on from where it rested, and re
   CHECK(once.at(0, 0.030).phase == Phase::falling);
   // 0.2 m/s for 40 ms.
   CHECK(once.at(0, 0.2).pose.position.x == doctest::Approx(0.008).epsilon(1e-4));
+}
+
+TEST_CASE("a brick that was put down askew has knots in whole steps like any other, and begins where it stood") {
+  Layout layout = row(1);
+  layout.bricks[0].heading = 0.7;
+  Flight flight{.brick = 0, .parts = {{0.010, {0.2, 0.0, 0.0}, {}, 2.0, 0.0}}, .end = 0.050};
+  FreeScript script(layout, {flight});
+  const Recording recording = record(layout, script);
+  const Track track = recording.track(0);
+  for (const FreeKnot& knot : track.free) {
+    for (const float part : {knot.qw, knot.qx, knot.qy, knot.qz}) CHECK(double{part} == rounded(double{part}, FreeSteps::kTurn));
+  }
+  // Half a step of the quaternion turns it by a step or less: a corner, 27 mm away, moves by 13 nm, four millionths of the thickness at
+  // most.
+  const Pose put = standing_pose(layout, 0);
+  CHECK(corner_distance(half_extents(layout.kind_of(0)), recording.at(0, track.start).pose, put) < 4e-6 * layout.kind_of(0).thickness);
 }
 
 TEST_CASE("a recording of free bricks that is written and read again is the same") {
