@@ -153,6 +153,14 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
   woken.listed_at = woken.box.place;
   ++moving_;
   planned_for_ = 0.0;
+  // It presses by itself again.
+  for (PlaneTouch& touch : touches_) {
+    if (touch.a != place && touch.b != place) continue;
+    for (PlaneMemory& memory : touch.memory) {
+      if (memory.leaning > 0.0) memory.kick = {};
+      memory.leaning = memory.leaning_tangent = 0.0;
+    }
+  }
   PlaneTouch floor;
   floor.a = place;
   floor.thin = woken.thin;

@@ -260,17 +260,24 @@ void PlaneSolver::solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows
       row.edge_stiffness = 1.0 / (1.0 / row.normal_stiffness + row.friction * row.friction / row.tangent_stiffness);
     }
     convex_ = velocity_;
+    bool found = false;
     for (int round = 0; round < kRounds; ++round) {
       solve_convex(bodies, rows);
       convex_ = velocity_;
       kept_.assign(rows.begin(), rows.end());
-      if (settle_truly(bodies, rows)) break;
+      found = settle_truly(bodies, rows);
+      if (found) break;
       std::copy(kept_.begin(), kept_.end(), rows.begin());
       velocity_ = convex_;
       for (PlaneRow& row : rows) {
         row.lagged_slip = row.state.pressed && row.state.grip != Grip::stick ? std::abs(slip_of(row, velocity_).tangent) : 0.0;
         row.lagged_limit = row.friction * (row.base + row.normal);
       }
+    }
+    if (!found) {
+      // Where the true law has no solution, as on a floor of much friction [Painleve1895], points may part but not sink.
+      for (PlaneRow& row : rows) row.lagged_slip = 0.0;
+      solve_convex(bodies, rows);
     }
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].velocity = {velocity_[i][0], velocity_[i][1], velocity_[i][2]};

@@ -12,7 +12,7 @@ namespace topple::rigid {
 
 /// Where a push dies one brick rocks or two, and there is little energy to compare errors with: then steps are shorter. It costs
 /// little, with so few.
-inline constexpr int kFew = 2, kStridesOfFew = 3;
+inline constexpr int kFew = 3, kStridesOfFew = 3;
 
 /// A push that begins, or a force that ends, inside a step.
 struct PushMoment {
