@@ -9,6 +9,11 @@ namespace topple::rigid {
 
 namespace {
 
+// Two bricks that are apart before a drift and after it may have gone through each other in between where they have gone farther than this,
+// in thicknesses; then the drift is looked at in parts.
+constexpr double kUnseen = 0.5;
+constexpr double kMostParts = 31.0;
+
 // What a point knows of itself from before: that of the same feature, or else of the nearest point within `near` [m]. Faces that lie flush
 // on each other swap their features at every rounding, and a stack stands by what its points remember.
 const PointMemory* recall(const Touch& before, const TouchPoint& point, double near) {
@@ -92,14 +97,48 @@ void Front::find_now(Touch& touch) const {
   }
 }
 
-void Front::try_drift(double time) {
+// When the first new point touches in a drift of `whole` [s]; `whole` if none does.
+double Front::find_cut(double whole) {
+  try_drift(whole, whole);
+  const int parts = 1 + static_cast<int>(std::min(farthest_passing() / kUnseen, kMostParts));
+  for (int part = 1; part < parts; ++part) {
+    const double time = whole * part / parts;
+    try_drift(time, whole);
+    const double cut = first_impact(time, whole);
+    if (cut < time) return cut;
+  }
+  if (parts > 1) try_drift(whole, whole);
+  return first_impact(whole, whole);
+}
+
+// How far two bricks go that are apart and may have met in the drift that is tried, at most [thicknesses].
+double Front::farthest_passing() const {
+  double farthest = 0.0;
+  const auto way_of = [this](int place) {
+    const Body &before = bodies_[static_cast<std::size_t>(place)], &after = ahead_[static_cast<std::size_t>(place)];
+    double turned = 0.0;
+    for (const Vec3& axis : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) {
+      turned = std::max(turned, norm(after.axes * axis - before.axes * axis));
+    }
+    return norm(after.position - before.position) + before.radius * 1.3 * turned;
+  };
+  for (const Touch& touch : touches_) {
+    if (touch.b == kFloor || touch.now.count > 0 || touch.next.count > 0) continue;
+    const double way = way_of(touch.a) + way_of(touch.b);
+    if (way > touch.next.parted) farthest = std::max(farthest, way / thinner(touch));
+  }
+  return farthest;
+}
+
+// Points after `time` of a drift of `whole`.
+void Front::try_drift(double time, double whole) {
   ahead_.resize(bodies_.size());
-  for (std::size_t i = 0; i < bodies_.size(); ++i) ahead_[i] = body_at(i, time, time);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) ahead_[i] = body_at(i, time, whole);
   for (Touch& touch : touches_) find_next(ahead_, touch);
 }
 
-// When the first new point touches [s]; `time` if none does before.
-double Front::first_impact(double time) {
+// When the first new point touches [s], of those that are deep at the time that was tried; that time if none is.
+double Front::first_impact(double time, double whole) const {
   double first = time;
   for (const Touch& touch : touches_) {
     // Flush faces come and go by a hair's breadth.
@@ -108,7 +147,7 @@ double Front::first_impact(double time) {
     for (int k = 0; k < touch.next.count; ++k) {
       const TouchPoint& point = touch.next.points[static_cast<std::size_t>(k)];
       if (point.separation > -deep || was_active(touch, point, recalled)) continue;
-      first = std::min(first, impact_of(touch, point, time));
+      first = std::min(first, impact_of(touch, point, time, whole));
     }
   }
   return first;
@@ -140,12 +179,12 @@ double Front::distance_at(const Touch& touch, std::uint32_t feature, double time
   return least;
 }
 
-// The moment at which a point begins to touch that is deep at the end of the drift.
-double Front::impact_of(const Touch& touch, const TouchPoint& point, double time) const {
+// The moment at which a point begins to touch that is deep after `time` of the drift.
+double Front::impact_of(const Touch& touch, const TouchPoint& point, double time, double whole) const {
   const double thin = thinner(touch), enough = world_.tolerances.located * thin;
   return impact_between(
       time, world_.tolerances.touching * thin, point.separation,
-      [&](double moment) { return distance_at(touch, point.feature, moment, time); },
+      [&](double moment) { return distance_at(touch, point.feature, moment, whole); },
       [&](double distance) { return std::abs(distance) <= enough; });
 }
 

@@ -115,8 +115,12 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
 // One part of the step, of at most `time`; returns how long it was.
 double Front::part(double begin, double time, bool may_cut) {
   if (std::abs(planned_for_ - time) > 1e-9 * world_.step) plan(time, false);
-  try_drift(time);
-  const double cut = may_cut ? first_impact(time) : time;
+  double cut = time;
+  if (may_cut) {
+    cut = find_cut(time);
+  } else {
+    try_drift(time, time);
+  }
   accept_drift(begin, cut, time);
   const double now = begin + cut;
   struck_now_.clear();

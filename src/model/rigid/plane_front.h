@@ -111,13 +111,14 @@ class PlaneFront final : public Wave {
   void make_rows(PointState PlaneMemory::* guess);
   void set_bias(double time, bool after_blow = false);
   void remember_impulses(double time, PointState PlaneMemory::* states);
-  void try_drift(double time);
+  double find_cut(double whole);
+  void try_drift(double time, double whole);
   static double way_to(const PlaneBrick& brick, const PlaneBox& box);
   void test_next(PlaneTouch& touch, const PlaneBox& a, const PlaneBox& b) const;
   static void accept(PlaneTouch& touch);
   void find_near_pairs();
-  double first_impact(double time);
-  double impact_of(const PlaneTouch& touch, const PlanePoint& point, double time) const;
+  double first_impact(double time, double whole) const;
+  double impact_of(const PlaneTouch& touch, const PlanePoint& point, double time, double whole) const;
   double distance_at(const PlaneTouch& touch, std::uint8_t feature, double time, double whole) const;
   PlaneBox box_at(const PlaneBrick& brick, double time, double whole) const;
   void accept_drift(double cut, double whole);
@@ -164,6 +165,7 @@ class PlaneFront final : public Wave {
   std::vector<PlaneBrick> bricks_, spare_;
   std::vector<PlaneTouch> touches_;
   std::vector<int> near_pairs_;  // Those that have points, or may have some at the end of the drift that is tried.
+  double passing_ = 0.0;         // How far two go that are apart and may have met in it, at most [thicknesses].
   std::vector<PlaneRow> rows_, compression_;
   std::vector<PlaneUnknown> unknowns_, before_blow_;
   struct Force {

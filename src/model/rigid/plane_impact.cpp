@@ -7,6 +7,15 @@
 
 namespace topple::rigid {
 
+namespace {
+
+// Two bricks that are apart before a drift and after it may have gone through each other in between where they have gone farther than this,
+// in thicknesses; then the drift is looked at in parts.
+constexpr double kUnseen = 0.5;
+constexpr double kMostParts = 31.0;
+
+}  // namespace
+
 PlaneBox PlaneFront::box_at(const PlaneBrick& brick, double time, double whole) const {
   PlaneBox box = brick.box;
   if (!brick.moving) return box;
@@ -22,12 +31,27 @@ double PlaneFront::way_to(const PlaneBrick& brick, const PlaneBox& box) {
   return std::abs(moved.x) + std::abs(moved.z) + brick.radius * std::abs(moved.turn);
 }
 
-// Points at the end of the drift. Pairs that are farther apart than their bricks can have gone since they were tested are not.
-void PlaneFront::try_drift(double time) {
+// When the first new point touches in a drift of `whole` [s]; `whole` if none does.
+double PlaneFront::find_cut(double whole) {
+  try_drift(whole, whole);
+  const int parts = 1 + static_cast<int>(std::min(passing_ / kUnseen, kMostParts));
+  for (int part = 1; part < parts; ++part) {
+    const double time = whole * part / parts;
+    try_drift(time, whole);
+    const double cut = first_impact(time, whole);
+    if (cut < time) return cut;
+  }
+  if (parts > 1) try_drift(whole, whole);
+  return first_impact(whole, whole);
+}
+
+// Points after `time` of a drift of `whole`. Pairs that are farther apart than their bricks can have gone since they were tested are not.
+void PlaneFront::try_drift(double time, double whole) {
   for (PlaneBrick& brick : bricks_) {
-    brick.next = box_at(brick, time, time);
+    brick.next = box_at(brick, time, whole);
     brick.next_path = brick.path + (brick.moving ? way_to(brick, brick.next) : 0.0);
   }
+  passing_ = 0.0;
   near_pairs_.clear();
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     PlaneTouch& touch = touches_[i];
@@ -41,7 +65,11 @@ void PlaneFront::try_drift(double time) {
     }
     test_next(touch, a.next, b.next);
     // The place that was tested may not be the one where the drift ends: there and back again.
-    if (touch.next.count == 0) touch.apart_until = 2.0 * path - next_path + touch.next.parted - world_.tolerances.margin * touch.thin;
+    if (touch.next.count == 0) {
+      touch.apart_until = 2.0 * path - next_path + touch.next.parted - world_.tolerances.margin * touch.thin;
+      const double way = next_path - path;
+      if (touch.b >= 0 && touch.now.count == 0 && way > touch.next.parted) passing_ = std::max(passing_, way / touch.thin);
+    }
     if (touch.now.count + touch.next.count > 0) near_pairs_.push_back(static_cast<int>(i));
   }
 }
@@ -96,8 +124,8 @@ double new_distance(const PlaneTouch& touch, const PlaneManifold& manifold, std:
 
 }  // namespace
 
-// When the first new point touches [s]; `time` if none does before.
-double PlaneFront::first_impact(double time) {
+// When the first new point touches [s], of those that are deep at the time that was tried; that time if none is.
+double PlaneFront::first_impact(double time, double whole) const {
   double first = time;
   for (const int pair : near_pairs_) {
     const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
@@ -105,7 +133,7 @@ double PlaneFront::first_impact(double time) {
     for (int k = 0; k < touch.next.count; ++k) {
       const PlanePoint& point = touch.next.points[static_cast<std::size_t>(k)];
       if (point.separation > -deep || was_active(touch, point.feature)) continue;
-      first = std::min(first, impact_of(touch, point, time));
+      first = std::min(first, impact_of(touch, point, time, whole));
     }
   }
   return first;
@@ -123,12 +151,12 @@ double PlaneFront::distance_at(const PlaneTouch& touch, std::uint8_t feature, do
   return new_distance(touch, manifold, feature, world_.tolerances.touching * touch.thin);
 }
 
-// The moment at which a point begins to touch that is deep at the end of the drift.
-double PlaneFront::impact_of(const PlaneTouch& touch, const PlanePoint& point, double time) const {
+// The moment at which a point begins to touch that is deep after `time` of the drift.
+double PlaneFront::impact_of(const PlaneTouch& touch, const PlanePoint& point, double time, double whole) const {
   const double enough = world_.tolerances.located * touch.thin;
   return impact_between(
       time, world_.tolerances.touching * touch.thin, point.separation,
-      [&](double moment) { return distance_at(touch, point.feature, moment, time); },
+      [&](double moment) { return distance_at(touch, point.feature, moment, whole); },
       [&](double distance) { return std::abs(distance) <= 1e-9 * enough; });
 }
 

@@ -81,8 +81,12 @@ void PlaneFront::begin_drift(double moment) {
   const double left = moment - now_;
   const double whole = keeps_step() && left > 1e-6 * world_.step ? std::min(stride(), left) : stride();
   if (std::abs(planned_for_ - whole) > 1e-9 * world_.step) plan(whole, false);
-  try_drift(whole);
-  drift_ = {.under_way = true, .whole = whole, .cut = cuts_ < world_.tolerances.cuts * moving_ ? first_impact(whole) : whole};
+  drift_ = {.under_way = true, .whole = whole, .cut = whole};
+  if (cuts_ < world_.tolerances.cuts * moving_) {
+    drift_.cut = find_cut(whole);
+  } else {
+    try_drift(whole, whole);
+  }
   if (even_ > 0) write_down_places();
 }
 

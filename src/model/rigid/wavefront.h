@@ -95,9 +95,11 @@ class Front final : public Wave {
   void find_next(const std::vector<Body>& bodies, Touch& touch) const;
   void find_now(Touch& touch) const;
   double recall_within(const Touch& touch) const;
-  void try_drift(double time);
-  double first_impact(double time);
-  double impact_of(const Touch& touch, const TouchPoint& point, double time) const;
+  double find_cut(double whole);
+  double farthest_passing() const;
+  void try_drift(double time, double whole);
+  double first_impact(double time, double whole) const;
+  double impact_of(const Touch& touch, const TouchPoint& point, double time, double whole) const;
   double distance_at(const Touch& touch, std::uint32_t feature, double time, double whole) const;
   void accept_drift(double begin, double cut, double whole);
   double closing_speed(const Touch& touch, int point) const;
