@@ -10,6 +10,7 @@ namespace {
 constexpr int kSweeps = 4;
 constexpr int kSystems = 12;
 constexpr int kRounds = 4;
+constexpr int kConeSweeps = 2;  // For each that there were before.
 // In a stack, which settles brick by brick when it is put down: so many systems, and so many more a body.
 constexpr int kStackSystems = 20;
 constexpr int kPerBody = 2;
@@ -29,7 +30,7 @@ void ContactSolver::solve(std::span<Body> bodies, std::span<ContactRow> rows, st
     if (!solve_stack(rows, guess, limits)) sweep_stack(rows, bodies, limits);
   } else if (!solve_wave(rows, limits)) {
     const double change = sweep(rows, limits.sweeps, limits.tolerance);
-    if (change > limits.lost) find_back(rows, bodies, limits, change);
+    if (change > limits.lost) sweep_cones(rows, limits);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Velocity& v = velocity_[i];
@@ -45,6 +46,15 @@ double ContactSolver::sweep(std::span<ContactRow> rows, int most, double toleran
   Sweeps::tell_states(rows);
   velocity_ = sweeps_.velocity;
   return change;
+}
+
+// Where nothing else settles, and perhaps there is no solution: bricks must not go through each other, nor make energy.
+void ContactSolver::sweep_cones(std::span<ContactRow> rows, const SolveLimits& limits) {
+  for (ContactRow& row : rows) row.impulse = {};
+  sweeps_.begin(rows, free_);
+  sweeps_.run_cones(rows, kConeSweeps * limits.sweeps, limits.tolerance);
+  Sweeps::tell_states(rows);
+  velocity_ = sweeps_.velocity;
 }
 
 bool ContactSolver::solve_wave(std::span<ContactRow> rows, const SolveLimits& limits) {
@@ -78,43 +88,6 @@ double ContactSolver::sweep_stack(std::span<ContactRow> rows, std::span<const Bo
   Sweeps::tell_states(rows);
   velocity_ = sweeps_.velocity;
   return change;
-}
-
-// Of two that have not settled the one that comes nearer; and neither may make energy.
-void ContactSolver::find_back(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits, double change) {
-  swept_.assign(rows.begin(), rows.end());
-  guess_ = velocity_;
-  if (sweep_stack(rows, bodies, limits) >= change) {
-    std::copy(swept_.begin(), swept_.end(), rows.begin());
-    velocity_ = guess_;
-  }
-  make_no_energy(rows, bodies);
-}
-
-// Of impulses that make energy so much acts that it is what it was without them. Along the way from the free velocities f to v that of
-// f + share (v - f) is before + share x slope + share^2 x change, with `change` that of the difference alone.
-void ContactSolver::make_no_energy(std::span<ContactRow> rows, std::span<const Body> bodies) {
-  double before = 0.0, after = 0.0, change = 0.0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].inverse_mass == 0.0) continue;
-    const auto energy = [&](const Velocity& v) {
-      Body body = bodies[i];
-      body.velocity = {v[0], v[1], v[2]};
-      body.angular_velocity = {v[3], v[4], v[5]};
-      return kinetic_energy(body);
-    };
-    Velocity difference = velocity_[i];
-    for (std::size_t k = 0; k < 6; ++k) difference[k] -= free_[i][k];
-    before += energy(free_[i]);
-    after += energy(velocity_[i]);
-    change += energy(difference);
-  }
-  if (after <= before) return;
-  const double share = std::max((change - after + before) / change, 0.0);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (std::size_t k = 0; k < 6; ++k) velocity_[i][k] = free_[i][k] + share * (velocity_[i][k] - free_[i][k]);
-  }
-  for (ContactRow& row : rows) row.impulse = {share * row.impulse[0], share * row.impulse[1], share * row.impulse[2]};
 }
 
 }  // namespace topple::rigid

@@ -24,8 +24,8 @@ struct SolveLimits {
 };
 
 /// Sweeps find out, from what was so in the last solution, which points press and slide; Newton's method then solves for all at once, and
-/// if it finds other states than it began with, tries those. Where it does not settle, the sweeps have another go, and the last word; if
-/// they lose their way, the augmented Lagrangian helps them.
+/// if it finds other states than it began with, tries those. Where it does not settle, the sweeps have another go; if they lose their way,
+/// sweeps with another law of friction that always has a solution have the last word. In stacks the augmented Lagrangian helps them.
 class ContactSolver {
  public:
   /// `bodies` come with the velocities that they would have without contact, rows with what they carried and did the last time; `guess` is
@@ -37,11 +37,9 @@ class ContactSolver {
   bool solve_wave(std::span<ContactRow> rows, const SolveLimits& limits);
   bool solve_stack(std::span<ContactRow> rows, std::span<const Twist> guess, const SolveLimits& limits);
   double sweep_stack(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits);
-  void find_back(std::span<ContactRow> rows, std::span<const Body> bodies, const SolveLimits& limits, double change);
-  void make_no_energy(std::span<ContactRow> rows, std::span<const Body> bodies);
+  void sweep_cones(std::span<ContactRow> rows, const SolveLimits& limits);
 
   std::vector<Velocity> free_, velocity_, guess_;
-  std::vector<ContactRow> swept_;
   ChainSolver chain_;
   Sweeps sweeps_;
   NewtonSolver newton_;

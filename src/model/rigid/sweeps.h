@@ -17,6 +17,9 @@ class Sweeps {
   /// At most so many, forwards and backwards in turn; fewer if no point's velocity changed by more than `tolerance` [m/s] in one. Returns
   /// the largest change in the last one [m/s].
   double run(std::span<ContactRow> rows, int most, double tolerance);
+  /// The same with another law of friction, under which sliding points part [Anitescu2006]: a little wrong, but there always is a solution,
+  /// and no sweep makes energy from impulses that are zero.
+  double run_cones(std::span<ContactRow> rows, int most, double tolerance);
   /// Sets the states that follow from the impulses.
   static void tell_states(std::span<ContactRow> rows);
 
