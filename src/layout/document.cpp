@@ -17,7 +17,6 @@
 #pragma pop_macro("TOML_UNREACHABLE")
 #include <toml++/toml.h>
 
-#include "layout/plain_document.h"
 #include "layout/text.h"
 
 namespace topple {
@@ -76,9 +75,6 @@ void move_to(Node& node, const Place& place) {
 
 }  // namespace
 
-bool operator==(const Node& a, const Node& b) { return a.place == b.place && a.value == b.value; }
-bool operator==(const KeyedNode& a, const KeyedNode& b) { return a.key == b.key && a.place == b.place && a.node == b.node; }
-
 const Node* find_member(const Table& table, std::string_view key) {
   for (const KeyedNode& member : table) {
     if (member.key == key) return &member.node;
@@ -89,11 +85,6 @@ const Node* find_member(const Table& table, std::string_view key) {
 Node* find_member(Table& table, std::string_view key) { return const_cast<Node*>(find_member(std::as_const(table), key)); }
 
 Result<Node> parse_document(std::string_view text, std::string_view name) {
-  if (std::optional<Node> plain = parse_plain(text)) return std::move(*plain);
-  return parse_any(text, name);
-}
-
-Result<Node> parse_any(std::string_view text, std::string_view name) {
   const toml::parse_result parsed = toml::parse(text);
   if (parsed) return Node{table_of(parsed.table()), {1, 1, -1}};
   const toml::parse_error& error = parsed.error();

@@ -16,8 +16,6 @@ struct Place {
   std::uint32_t line = 0;  ///< From 1; 0: nowhere in the file.
   std::uint32_t column = 0;
   std::int32_t override_index = -1;  ///< Which of the overrides it came from; -1: the file.
-
-  friend bool operator==(const Place&, const Place&) = default;
 };
 
 struct Node;
@@ -25,23 +23,17 @@ struct KeyedNode;
 using Array = std::vector<Node>;
 using Table = std::vector<KeyedNode>;
 /// A value of a type that no key has: a date or a time.
-struct Moment {
-  friend bool operator==(const Moment&, const Moment&) = default;
-};
+struct Moment {};
 
 struct Node {
   std::variant<bool, std::int64_t, double, std::string, Array, Table, Moment> value;
   Place place;
-
-  friend bool operator==(const Node&, const Node&);
 };
 
 struct KeyedNode {
   std::string key;
   Place place;  ///< Of the key.
   Node node;
-
-  friend bool operator==(const KeyedNode&, const KeyedNode&);
 };
 
 Node* find_member(Table& table, std::string_view key);
@@ -49,9 +41,6 @@ const Node* find_member(const Table& table, std::string_view key);
 
 /// The whole document as a table. On failure one line: where it stops being TOML, and why.
 Result<Node> parse_document(std::string_view text, std::string_view name);
-
-/// The same always by the reader of all of TOML, which the other one must agree with.
-Result<Node> parse_any(std::string_view text, std::string_view name);
 
 /// One TOML value: what stands right of the "=" of an override. Text that is no TOML value is taken as it is.
 Node parse_value(std::string_view text, const Place& place);

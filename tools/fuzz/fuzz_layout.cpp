@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "layout/plain_document.h"
 #include "layout/text.h"
 #include "topple/layout.h"
 
@@ -62,12 +61,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t cou
       pieces.emplace_back();
     } else {
       pieces.back() += static_cast<char>(bytes[i]);
-    }
-  }
-  if (!topple::unreadable(pieces.front())) {
-    if (const auto plain = topple::parse_plain(pieces.front())) {
-      const auto any = topple::parse_any(pieces.front(), "fuzz.toml");
-      require(any && *plain == *any, "the reader of plain documents agrees with that of all of TOML");
     }
   }
   const std::vector<std::string> overrides(pieces.begin() + 1, pieces.end());
