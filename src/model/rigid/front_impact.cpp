@@ -100,7 +100,7 @@ void Front::find_now(Touch& touch) const {
 // When the first new point touches in a drift of `whole` [s]; `whole` if none does.
 double Front::find_cut(double whole) {
   try_drift(whole, whole);
-  const int parts = 1 + static_cast<int>(std::min(farthest_passing() / kUnseen, kMostParts));
+  const int parts = 1 + static_cast<int>(std::min(farthest_passing(whole) / kUnseen, kMostParts));
   for (int part = 1; part < parts; ++part) {
     const double time = whole * part / parts;
     try_drift(time, whole);
@@ -111,20 +111,20 @@ double Front::find_cut(double whole) {
   return first_impact(whole, whole);
 }
 
-// How far two bricks go that are apart and may have met in the drift that is tried, at most [thicknesses].
-double Front::farthest_passing() const {
+// How far two bricks go past each other that are apart and may have met in the drift that is tried, at most [thicknesses].
+double Front::farthest_passing(double time) const {
   double farthest = 0.0;
-  const auto way_of = [this](int place) {
-    const Body &before = bodies_[static_cast<std::size_t>(place)], &after = ahead_[static_cast<std::size_t>(place)];
-    double turned = 0.0;
-    for (const Vec3& axis : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) {
-      turned = std::max(turned, norm(after.axes * axis - before.axes * axis));
-    }
-    return norm(after.position - before.position) + before.radius * 1.3 * turned;
+  const auto moved = [this](int place) {
+    return ahead_[static_cast<std::size_t>(place)].position - bodies_[static_cast<std::size_t>(place)].position;
+  };
+  const auto turned = [this, time](int place) {
+    return members_[static_cast<std::size_t>(place)].moving
+               ? bodies_[static_cast<std::size_t>(place)].radius * time * norm(members_[static_cast<std::size_t>(place)].middle.spin)
+               : 0.0;
   };
   for (const Touch& touch : touches_) {
     if (touch.b == kFloor || touch.now.count > 0 || touch.next.count > 0) continue;
-    const double way = way_of(touch.a) + way_of(touch.b);
+    const double way = norm(moved(touch.a) - moved(touch.b)) + turned(touch.a) + turned(touch.b);
     if (way > touch.next.parted) farthest = std::max(farthest, way / thinner(touch));
   }
   return farthest;

@@ -114,6 +114,7 @@ class PlaneFront final : public Wave {
   double find_cut(double whole);
   void try_drift(double time, double whole);
   static double way_to(const PlaneBrick& brick, const PlaneBox& box);
+  static double way_between(const PlaneBrick& a, const PlaneBrick& b, double parted);
   void test_next(PlaneTouch& touch, const PlaneBox& a, const PlaneBox& b) const;
   static void accept(PlaneTouch& touch);
   void find_near_pairs();

@@ -31,6 +31,13 @@ double PlaneFront::way_to(const PlaneBrick& brick, const PlaneBox& box) {
   return std::abs(moved.x) + std::abs(moved.z) + brick.radius * std::abs(moved.turn);
 }
 
+// How far, at most, two bricks that end `parted` have gone past each other in the drift that is tried [m]; 0 if they cannot have met.
+double PlaneFront::way_between(const PlaneBrick& a, const PlaneBrick& b, double parted) {
+  const PlaneVec of_a = a.next.place - a.box.place, of_b = b.next.place - b.box.place, apart = of_a - of_b;
+  const double way = std::sqrt(apart.x * apart.x + apart.z * apart.z) + a.radius * std::abs(of_a.turn) + b.radius * std::abs(of_b.turn);
+  return way > parted ? way : 0.0;
+}
+
 // When the first new point touches in a drift of `whole` [s]; `whole` if none does.
 double PlaneFront::find_cut(double whole) {
   try_drift(whole, whole);
@@ -67,8 +74,9 @@ void PlaneFront::try_drift(double time, double whole) {
     // The place that was tested may not be the one where the drift ends: there and back again.
     if (touch.next.count == 0) {
       touch.apart_until = 2.0 * path - next_path + touch.next.parted - world_.tolerances.margin * touch.thin;
-      const double way = next_path - path;
-      if (touch.b >= 0 && touch.now.count == 0 && way > touch.next.parted) passing_ = std::max(passing_, way / touch.thin);
+      if (touch.b >= 0 && touch.now.count == 0 && next_path - path > touch.next.parted) {
+        passing_ = std::max(passing_, way_between(a, b, touch.next.parted) / touch.thin);
+      }
     }
     if (touch.now.count + touch.next.count > 0) near_pairs_.push_back(static_cast<int>(i));
   }

@@ -96,7 +96,7 @@ class Front final : public Wave {
   void find_now(Touch& touch) const;
   double recall_within(const Touch& touch) const;
   double find_cut(double whole);
-  double farthest_passing() const;
+  double farthest_passing(double time) const;
   void try_drift(double time, double whole);
   double first_impact(double time, double whole) const;
   double impact_of(const Touch& touch, const TouchPoint& point, double time, double whole) const;
