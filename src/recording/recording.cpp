@@ -54,11 +54,14 @@ Phase phase_after(const HingedKnot& last) {
   return last.angle == 0.0F ? Phase::standing : Phase::resting;
 }
 
+bool is_still(const FreeKnot& knot) {
+  return knot.vx == 0.0F && knot.vy == 0.0F && knot.vz == 0.0F && knot.wx == 0.0F && knot.wy == 0.0F && knot.wz == 0.0F;
+}
+
 Phase phase_after(const Track& last, double angle) {
   if (!last.hinged.empty()) return phase_after(last.hinged.back());
   const FreeKnot& knot = last.free.back();
-  const bool still = knot.vx == 0.0F && knot.vy == 0.0F && knot.vz == 0.0F && knot.wx == 0.0F && knot.wy == 0.0F && knot.wz == 0.0F;
-  if (!still) return Phase::falling;
+  if (!is_still(knot)) return Phase::falling;
   return angle < kUprightTilt ? Phase::standing : Phase::resting;
 }
 
@@ -134,8 +137,10 @@ double Recording::rest_angle(BrickId brick) const {
   const std::int32_t piece = tracks.last_of(brick);
   if (piece == TrackStore::kNone) return kNone;
   if (const auto last = tracks.last_knot(piece)) return phase_after(*last) == Phase::resting ? double{last->angle} : kNone;
-  const BrickState state = at(brick, std::numeric_limits<double>::infinity());
-  return state.phase == Phase::resting ? state.hinge.angle : kNone;
+  const auto last = tracks.last_free_knot(piece);
+  if (!last || !is_still(*last)) return kNone;
+  const double angle = tilt(store_->layout, brick, state_at(std::span<const FreeKnot>(&*last, 1), 0.0).orientation);
+  return angle < kUprightTilt ? kNone : angle;
 }
 
 BrickState Recording::at(BrickId brick, double time) const {

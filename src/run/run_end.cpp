@@ -1,6 +1,7 @@
 #include "run/run_end.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -57,8 +58,10 @@ BrickId last_not_fallen(const Recording& recording) {
     if (event.kind != EventKind::pushed && event.kind != EventKind::struck) continue;
     // What a ball or a structure does is no wave that could die.
     if (const Part* part = layout.part_of(event.brick); part != nullptr && !part->line) continue;
+    const double tip = tip_angle_of(layout, event.brick);
+    if (std::abs(recording.rest_angle(event.brick)) > tip) continue;  // Nearly all, and not a number is not.
     const Pose rests = recording.at(event.brick, std::numeric_limits<double>::infinity()).pose;
-    if (tilt(layout, event.brick, rests.orientation) <= tip_angle_of(layout, event.brick)) return event.brick;
+    if (tilt(layout, event.brick, rests.orientation) <= tip) return event.brick;
   }
   return kNoBrick;
 }
