@@ -275,7 +275,7 @@ void touch_boxes(const Body& a, const Body& b, double margin, Manifold& out) {
     if (out.parted > margin) return;
   }
   const double thinnest = 2.0 * std::min(std::min({a.half.x, a.half.y, a.half.z}), std::min({b.half.x, b.half.y, b.half.z}));
-  AxisSearch best{.pair = p, .margin = margin, .kept = axis, .kept_bonus = 1e-3 * thinnest, .edge_malus = 1e-2 * thinnest};
+  AxisSearch best{.pair = p, .margin = margin, .kept = axis, .kept_bonus = 1e-3 * thinnest, .edge_malus = 3e-3 * thinnest};
   const bool parted = best.look_along(std::make_index_sequence<kAxes>());
   axis = best.axis;
   out.parted = best.separation;
