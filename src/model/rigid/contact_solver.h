@@ -16,6 +16,12 @@ struct Twist {
   Vec3 spin;      ///< World axes [rad/s].
 };
 
+inline Twist twist_of(const Body& body) { return {body.velocity, body.angular_velocity}; }
+inline void set_twist(Body& body, const Twist& twist) {
+  body.velocity = twist.velocity;
+  body.angular_velocity = twist.spin;
+}
+
 struct SolveLimits {
   double tolerance = 0.0;  ///< Of velocities [m/s].
   int sweeps = 0;          ///< Most sweeps, where Newton's method fails.

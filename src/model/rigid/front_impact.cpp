@@ -14,6 +14,9 @@ namespace {
 constexpr double kUnseen = 0.5;
 constexpr double kMostParts = 31.0;
 
+// What a drift may make of the kinetic energy there is, by its own inexactness.
+constexpr double kSpare = 1e-3;
+
 // What a point knows of itself from before: that of the same feature, or else of the nearest point within `near` [m]. Faces that lie flush
 // on each other swap their features at every rounding, and a stack stands by what its points remember.
 const PointMemory* recall(const Touch& before, const TouchPoint& point, double near) {
@@ -197,22 +200,26 @@ void Front::accept_drift(double begin, double cut, double whole) {
   };
   for (const ActiveForce& force : forces_) work -= work_place(force);
   const double share = cut / whole;
+  const double before = cut < whole ? moving_energy() : 0.0;
+  double lifted = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Member& member = members_[i];
     if (!member.moving) continue;
     Body& body = bodies_[i];
     const Twist start{body.velocity, body.angular_velocity};
     const Vec3 gain = member.middle.velocity - start.velocity, spin_gain = member.middle.spin - start.spin;
-    const double slope = cross(start.spin, body.axes * member.local_up).z;
+    const double slope = cross(start.spin, body.axes * member.local_up).z, height = body.position.z;
     body = cut < whole ? body_at(i, cut, whole) : ahead_[i];
     member.middle.spin = body.angular_velocity;  // As the drift has turned it.
     body.velocity = start.velocity + (2.0 * share) * gain;
     body.angular_velocity = body.angular_velocity + share * spin_gain;
+    lifted += world_.gravity * (body.position.z - height) / body.inverse_mass;
     member.gain = {(2.0 / whole) * gain, (2.0 / whole) * spin_gain};
     note_arrival(i, begin, cut, slope, cross(body.angular_velocity, body.axes * member.local_up).z);
   }
   for (const ActiveForce& force : forces_) work += work_place(force);
   ledger_.push_work += work;
+  if (cut < whole) rein_in(before + work - lifted);
   for (Touch& touch : touches_) {
     if (cut < whole) find_next(bodies_, touch);
     if (touch.next.count == 0) {
@@ -228,6 +235,35 @@ void Front::accept_drift(double begin, double cut, double whole) {
       touch.memory[at].fresh = false;
     }
     touch.now.take(touch.next);
+  }
+}
+
+// At an impact within a drift velocities are as far beyond the middle ones as those at its beginning were below them. Where the half kick
+// at its beginning stopped something, that would throw it back: then they go only so far beyond that they have no more than this kinetic
+// energy [J].
+void Front::rein_in(double most) {
+  const double beyond = moving_energy();
+  if (beyond <= most * (1.0 + kSpare)) return;
+  guess_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Twist found = twist_of(bodies_[i]);
+    const Twist& middle = members_[i].middle;
+    guess_.push_back(found);
+    if (members_[i].moving) set_twist(bodies_[i], {found.velocity - middle.velocity, found.spin - middle.spin});
+  }
+  const double change = moving_energy();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (members_[i].moving) set_twist(bodies_[i], members_[i].middle);
+  }
+  // That of middle + share x change is at_middle + share x both + share^2 x change.
+  const double at_middle = moving_energy(), both = beyond - at_middle - change, left = at_middle - most;
+  const double root = both * both - 4.0 * change * left;
+  const double share = left >= 0.0 || root < 0.0 || change <= 0.0 ? 0.0 : std::clamp((std::sqrt(root) - both) / (2.0 * change), 0.0, 1.0);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!members_[i].moving) continue;
+    const Twist& middle = members_[i].middle;
+    set_twist(bodies_[i],
+              {middle.velocity + share * (guess_[i].velocity - middle.velocity), middle.spin + share * (guess_[i].spin - middle.spin)});
   }
 }
 
@@ -283,7 +319,7 @@ void Front::take_blow(double next, bool ends_step) {
   const bool bounced = blow(ends_step && struck_now_.empty());
   plan(next, !bounced);
   for (Touch& touch : touches_) touch.load = 0.0;
-  if (bounced) return;
+  if (bounced) return stop_at_once();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving) continue;
     const Twist after = after_the_blow(members_[i], next);
@@ -291,6 +327,20 @@ void Front::take_blow(double next, bool ends_step) {
     bodies_[i].angular_velocity = after.spin;
     bodies_[i].gyroscopic = free_rotation(bodies_[i]);
   }
+}
+
+// Points that close after a bounce, since others have bounced against them, are stopped within the half kick that is planned. The
+// velocities of this moment must not have them any more: a drift that is cut short would go as far beyond the planned ones as it was below
+// them.
+void Front::stop_at_once() {
+  make_rows(&PointMemory::blow, 0.0);
+  for (ContactRow& row : rows_) {
+    const Touch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    row.bias = {std::max(touch.now.points[static_cast<std::size_t>(row.point)].separation, 0.0) / world_.step, 0.0, 0.0};
+  }
+  free_.clear();
+  for (const Body& body : bodies_) free_.push_back({body.velocity, body.angular_velocity});
+  solve_contacts(free_);
 }
 
 // A blow by itself, `always` or only if something bounces; whether there was one. Restitution is Poisson's [Glocker1995]: every point gives

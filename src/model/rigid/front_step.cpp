@@ -25,13 +25,6 @@ constexpr double kCreep = 4e-4;
 
 constexpr int kBends = 3;  // So many times a blow is solved again with the turning that it makes.
 
-Twist twist_of(const Body& body) { return {body.velocity, body.angular_velocity}; }
-
-void set_twist(Body& body, const Twist& twist) {
-  body.velocity = twist.velocity;
-  body.angular_velocity = twist.spin;
-}
-
 // A ball's point is always the nearest one, however it turns: for the distance it is as if it did not.
 Vec3 spin_of(const Body& body) { return body.round ? Vec3{} : body.angular_velocity; }
 

@@ -107,8 +107,10 @@ class Front final : public Wave {
   bool activate_new_points();
   bool closes_fast() const;
   void take_blow(double next, bool ends_step);
+  void stop_at_once();
   bool blow(bool always);
   double moving_energy() const;
+  void rein_in(double most);
   void give_back(double before);
   void bounce_by(double share);
   bool is_hit(const Touch& touch, std::size_t still) const;
