@@ -56,12 +56,19 @@ TEST_CASE("rigid: rows of any surface, gap, shape and gravity end, keep their en
     // Bricks that do not rub on each other may swing to and fro for as long as they like.
     if (rows[i].surface.brick_friction > 0.0) CHECK(verdict.ends);
     CHECK(verdict.keeps_energy);
-    // One of the eighteen breaks this law, as 43 of the whole sweep do: bricks of 1:20, one of them askew, overlap by a ninth.
-    if (i == 410) {
-      CHECK(run.overlap < 0.15);
-    } else {
-      CHECK(verdict.stays_apart);
-    }
+    CHECK(verdict.stays_apart);
+  }
+}
+
+// What resting bricks pressed with went on when they woke; contacts without a solution let points sink; thin bricks went through each other
+// within a drift; drifts cut short threw back what had been stopped at their beginning.
+TEST_CASE("rigid: rows that made energy once or let bricks through do so no more") {
+  const std::vector<SweptRow> rows = all_rows();
+  for (const std::size_t i : {50U, 63U, 154U, 166U, 208U, 322U, 353U, 564U}) {
+    const SweptRun run = run_swept(rows[i], kUntil);
+    CAPTURE(rows[i].words());
+    CHECK(run.energy_rise < 0.001);
+    CHECK(run.overlap < 0.02);
   }
 }
 
