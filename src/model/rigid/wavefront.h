@@ -108,6 +108,7 @@ class Front final : public Wave {
   bool closes_fast() const;
   void take_blow(double next, bool ends_step);
   void stop_at_once();
+  int strides_of_step() const;
   bool blow(bool always);
   double moving_energy() const;
   void rein_in(double most);
