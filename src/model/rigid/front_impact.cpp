@@ -2,17 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rigid/passing.h"
 #include "model/rigid/secant.h"
 #include "model/rigid/wavefront.h"
 
 namespace topple::rigid {
 
 namespace {
-
-// Two bricks that are apart before a drift and after it may have gone through each other in between where they have gone farther than this,
-// in thicknesses; then the drift is looked at in parts.
-constexpr double kUnseen = 0.5;
-constexpr double kMostParts = 31.0;
 
 // What a drift may make of the kinetic energy there is, by its own inexactness.
 constexpr double kSpare = 1e-3;
@@ -102,16 +98,9 @@ void Front::find_now(Touch& touch) const {
 
 // When the first new point touches in a drift of `whole` [s]; `whole` if none does.
 double Front::find_cut(double whole) {
-  try_drift(whole, whole);
-  const int parts = 1 + static_cast<int>(std::min(farthest_passing(whole) / kUnseen, kMostParts));
-  for (int part = 1; part < parts; ++part) {
-    const double time = whole * part / parts;
-    try_drift(time, whole);
-    const double cut = first_impact(time, whole);
-    if (cut < time) return cut;
-  }
-  if (parts > 1) try_drift(whole, whole);
-  return first_impact(whole, whole);
+  return cut_of(
+      whole, [&](double time) { try_drift(time, whole); }, [&] { return farthest_passing(whole); },
+      [&](double time) { return first_impact(time, whole); });
 }
 
 // How far two bricks go past each other that are apart and may have met in the drift that is tried, at most [thicknesses].

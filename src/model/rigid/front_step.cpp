@@ -72,7 +72,7 @@ int Front::strides_of_step() const {
   double most = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving) continue;
-    const Vec3& spin = bodies_[i].angular_velocity;
+    const Vec3 spin = spin_of(bodies_[i]);
     most = std::max(most, dot(spin, spin) * bodies_[i].radius / members_[i].thin);
   }
   const double strides = std::sqrt(0.125 * most / kDip) * world_.step;

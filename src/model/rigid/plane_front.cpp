@@ -161,19 +161,26 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
       memory.leaning = memory.leaning_tangent = 0.0;
     }
   }
-  PlaneTouch floor;
-  floor.a = place;
-  floor.thin = woken.thin;
-  const Surface& surface = world_.layout.kinds[woken.kind].surface;
-  floor.friction = surface.floor_friction;
-  floor.restitution = surface.floor_restitution;
-  touch_floor(woken.box, world_.tolerances.touching * woken.thin, floor.now);
+  PlaneTouch floor = on_floor(place, world_.tolerances.touching);
   // A brick that has just begun to move stands on what it stood on.
   for (PlaneMemory& memory : floor.memory) memory.active = true;
   touches_.push_back(floor);
   list_neighbours(place);
   order();
   mark_borne_by(place_of(brick));
+}
+
+// How a brick stands on the floor, with the points within so many thicknesses of it.
+PlaneTouch PlaneFront::on_floor(int place, double within) const {
+  const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+  const Surface& surface = world_.layout.kinds[brick.kind].surface;
+  PlaneTouch floor;
+  floor.a = place;
+  floor.thin = brick.thin;
+  floor.friction = surface.floor_friction;
+  floor.restitution = surface.floor_restitution;
+  touch_floor(brick.box, within * brick.thin, floor.now);
+  return floor;
 }
 
 // What stands on a brick that begins to move, or leans on it, wakes when it has gone.

@@ -52,6 +52,7 @@ class PlaneFront final : public Wave {
   bool in_order() const;
   void order();
   void order_bricks();
+  PlaneTouch on_floor(int place, double within) const;
   void mark_borne_by(int place);
   void wake_unsupported(double now);
   void wake_struck(double now);

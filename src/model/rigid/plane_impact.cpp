@@ -2,19 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rigid/passing.h"
 #include "model/rigid/plane_front.h"
 #include "model/rigid/secant.h"
 
 namespace topple::rigid {
-
-namespace {
-
-// Two bricks that are apart before a drift and after it may have gone through each other in between where they have gone farther than this,
-// in thicknesses; then the drift is looked at in parts.
-constexpr double kUnseen = 0.5;
-constexpr double kMostParts = 31.0;
-
-}  // namespace
 
 PlaneBox PlaneFront::box_at(const PlaneBrick& brick, double time, double whole) const {
   PlaneBox box = brick.box;
@@ -40,16 +32,9 @@ double PlaneFront::way_between(const PlaneBrick& a, const PlaneBrick& b, double 
 
 // When the first new point touches in a drift of `whole` [s]; `whole` if none does.
 double PlaneFront::find_cut(double whole) {
-  try_drift(whole, whole);
-  const int parts = 1 + static_cast<int>(std::min(passing_ / kUnseen, kMostParts));
-  for (int part = 1; part < parts; ++part) {
-    const double time = whole * part / parts;
-    try_drift(time, whole);
-    const double cut = first_impact(time, whole);
-    if (cut < time) return cut;
-  }
-  if (parts > 1) try_drift(whole, whole);
-  return first_impact(whole, whole);
+  return cut_of(
+      whole, [&](double time) { try_drift(time, whole); }, [&] { return passing_; },
+      [&](double time) { return first_impact(time, whole); });
 }
 
 // Points after `time` of a drift of `whole`. Pairs that are farther apart than their bricks can have gone since they were tested are not.

@@ -19,13 +19,7 @@ void PlaneFront::adopt(std::span<const HandedBrick> bricks) {
     brick.pushed = handed.pushed;
     brick.landed = handed.landed;
     ++moving_;
-    PlaneTouch floor;
-    floor.a = place;
-    floor.thin = brick.thin;
-    const Surface& surface = world_.layout.kinds[brick.kind].surface;
-    floor.friction = surface.floor_friction;
-    floor.restitution = surface.floor_restitution;
-    touch_floor(brick.box, world_.tolerances.margin * brick.thin, floor.now);
+    PlaneTouch floor = on_floor(place, world_.tolerances.margin);
     for (int k = 0; k < floor.now.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       floor.memory[at].active = floor.now.points[at].separation < world_.tolerances.touching * brick.thin;
