@@ -308,14 +308,19 @@ void Front::take_blow(double next, bool ends_step) {
   const bool bounced = blow(ends_step && struck_now_.empty());
   plan(next, !bounced);
   for (Touch& touch : touches_) touch.load = 0.0;
-  if (bounced) return stop_at_once();
+  if (bounced) {
+    stop_at_once();
+    return keep_energy();
+  }
+  const double before = moving_energy();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (!members_[i].moving) continue;
-    const Twist after = after_the_blow(members_[i], next);
-    bodies_[i].velocity = after.velocity;
-    bodies_[i].angular_velocity = after.spin;
+    set_twist(bodies_[i], after_the_blow(members_[i], next));
     bodies_[i].gyroscopic = free_rotation(bodies_[i]);
   }
+  if (moving_energy() <= before + spare_energy()) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) set_twist(bodies_[i], now_[i]);
+  stop_at_once();
 }
 
 // Points that close after a bounce, since others have bounced against them, are stopped within the half kick that is planned. The
@@ -362,6 +367,35 @@ double Front::moving_energy() const {
     if (body.inverse_mass > 0.0) sum += kinetic_energy(body);
   }
   return sum;
+}
+
+// What a rise of energy may be [J].
+double Front::spare_energy() const {
+  double sum = 0.0;
+  for (const Body& body : bodies_) {
+    if (body.inverse_mass > 0.0) sum += world_.gravity * body.radius / body.inverse_mass;
+  }
+  return EnergyLaw::kSpare * sum;
+}
+
+// After a kick or a bounce.
+void Front::keep_energy() {
+  const double kinetic = moving_energy();
+  double energy = kinetic;
+  for (const Body& body : bodies_) {
+    if (body.inverse_mass > 0.0) energy += potential_energy(world_, body.id, body.position.z);
+  }
+  if (!forces_.empty()) energy_law_.forget();
+  const double taken = energy_law_.excess(energy, spare_energy());
+  if (taken <= 0.0) return;
+  const double share = std::sqrt(std::max(1.0 - taken / kinetic, 0.0));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Member& member = members_[i];
+    if (!member.moving) continue;
+    const Twist now = twist_of(bodies_[i]);
+    set_twist(bodies_[i], {share * now.velocity, share * now.spin});
+    member.middle = {share * member.middle.velocity, share * member.middle.spin};
+  }
 }
 
 // The second half of a bounce: every point has its share of impulse more, at least. Where points share a blow or rub, that could make

@@ -75,6 +75,7 @@ void Front::give_part(int part, Front& to) {
     return true;
   });
   to.rested_ = rested_;
+  energy_law_.forget();
   to.may_part_ = true;
   keep_those(renamed_);
   std::size_t kept = 0;

@@ -99,6 +99,7 @@ void Front::advance(double begin, std::span<const PushMoment> moments) {
     while (next < moments.size() && moments[next].time <= now) {
       const PushMoment& moment = moments[next++];
       planned_for_ = 0.0;
+      energy_law_.forget();
       if (moment.push != nullptr) {
         begin_push(*moment.push, now);
       } else {
@@ -143,6 +144,7 @@ double Front::part(double begin, double time, bool may_cut) {
     note_landed(now);
   } else if (cut == time) {
     leap(time);
+    keep_energy();
     wake_struck(now);
   }
   return cut;

@@ -45,6 +45,7 @@ void Front::lose(BrickId brick) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].id != brick || members_[i].lost) continue;
     members_[i].lost = true;
+    energy_law_.forget();
     if (members_[i].moving) --moving_;
     members_[i].moving = false;
   }
@@ -149,6 +150,7 @@ void Front::rouse(BrickId brick) {
   if (members_[static_cast<std::size_t>(place)].moving) return;
   ledger_.woken.push_back(brick);
   set_moving(place);
+  energy_law_.add(potential_energy(world_, brick, bodies_[static_cast<std::size_t>(place)].position.z));
   list_neighbours(place);
   order_touches();
   mark_borne_by(place);
@@ -317,6 +319,7 @@ void Front::retire(double time) {
     member.quiet = quiet ? member.quiet + world_.step : 0.0;
     if (member.quiet < limits.patience * member.time_scale) continue;
     any = true;
+    energy_law_.add(-kinetic_energy(body) - potential_energy(world_, body.id, body.position.z));
     member.moving = false;
     member.just_rested = true;
     --moving_;
@@ -358,6 +361,7 @@ void Front::adopt(std::span<const HandedBrick> bricks, std::span<const ActiveFor
   for (const HandedBrick& handed : bricks) mark_borne_by(place_of(handed.brick));
   forces_.insert(forces_.end(), forces.begin(), forces.end());
   planned_for_ = 0.0;
+  energy_law_.forget();
   order_touches();
 }
 
@@ -381,6 +385,7 @@ void Front::absorb(Front& other) {
     touches_.push_back(touch);
   }
   planned_for_ = 0.0;
+  energy_law_.join(other.energy_law_);
   moving_ += other.moving_;
   forces_.insert(forces_.end(), other.forces_.begin(), other.forces_.end());
   events_.insert(events_.end(), other.events_.begin(), other.events_.end());

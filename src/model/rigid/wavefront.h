@@ -7,6 +7,7 @@
 
 #include "base/trigonometry.h"
 #include "model/rigid/contact_solver.h"
+#include "model/rigid/energy_law.h"
 #include "model/rigid/touch.h"
 #include "model/rigid/wave.h"
 
@@ -111,6 +112,8 @@ class Front final : public Wave {
   int strides_of_step() const;
   bool blow(bool always);
   double moving_energy() const;
+  double spare_energy() const;
+  void keep_energy();
   void rein_in(double most);
   void give_back(double before);
   void bounce_by(double share);
@@ -146,6 +149,7 @@ class Front final : public Wave {
   std::vector<Struck> struck_now_;
   double stride_ = 0.0;       // The step, or a part of it: how long drifts are [s].
   double planned_for_ = 0.0;  // The plan is good for a drift of this time [s]; 0: for none.
+  EnergyLaw energy_law_;
   Touch before_;
   ContactSolver solver_;
 };
