@@ -41,6 +41,11 @@ struct PlaneBrick {
   bool landed = false;
 };
 
+/// Of a brick at this velocity [J].
+inline double kinetic_energy(const PlaneBrick& brick, const PlaneVec& v) {
+  return 0.5 * (brick.mass * (v.x * v.x + v.z * v.z) + brick.inertia * v.turn * v.turn);
+}
+
 /// What a point remembers from moment to moment.
 struct PlaneMemory {
   bool active = false;
@@ -119,6 +124,7 @@ struct PlaneCycle {
   /// One drift, and all that its end did.
   struct Drift {
     double whole = 0.0, cut = 0.0;  ///< [s]
+    bool reckoned = false;          ///< See PlaneFront::take_blow().
     std::vector<Place> places;
     std::vector<Arrival> arrivals;
     std::vector<int> taken, left, woken;

@@ -22,11 +22,6 @@ Event plain_event(EventKind kind, double time, BrickId brick, BrickId by) {
           .point = {kNotANumber, kNotANumber, kNotANumber}};
 }
 
-double kinetic_energy(const PlaneBrick& brick) {
-  const PlaneVec& v = brick.velocity;
-  return 0.5 * (brick.mass * (v.x * v.x + v.z * v.z) + brick.inertia * v.turn * v.turn);
-}
-
 }  // namespace
 
 // Of the drift under way, up to so long after it began.
@@ -144,7 +139,7 @@ void PlaneFront::begin_push(const Push& push, double now) {
   const SinCos turn = sin_cos(world_.layout.bricks[static_cast<std::size_t>(push.brick)].heading);
   const double way = turn.cos * plane_.along.x + turn.sin * plane_.along.y > 0.0 ? 1.0 : -1.0;
   const double along = brick.box.half_along, up = brick.box.half_up;
-  const double before = kinetic_energy(brick);
+  const double before = kinetic_energy(brick, brick.velocity);
   const auto arm = [&brick](double x, double z) {
     return PlaneVec{x * brick.box.cosine + z * brick.box.sine, z * brick.box.cosine - x * brick.box.sine, 0.0};
   };
@@ -154,7 +149,7 @@ void PlaneFront::begin_push(const Push& push, double now) {
     const PlaneVec toe = arm(way * along, -up);
     const double speed = way * spin->angular_speed;
     brick.velocity = {-speed * toe.z, speed * toe.x, speed};
-    ledger_.push_work += kinetic_energy(brick) - before;
+    ledger_.push_work += kinetic_energy(brick, brick.velocity) - before;
     for (PlaneTouch& touch : touches_) {
       if (touch.a == place || touch.b == place) keep_what_stays(touch, place);
     }
@@ -240,23 +235,26 @@ void PlaneFront::read(std::span<FreeMotion> out, Energy* energy) const {
   for (const PlaneBrick& brick : rested_now_) {
     if (!is_unseen(brick.id)) out[next++] = {brick.id, Phase::resting, pose_of(brick), {}, {}};
   }
-  const auto tell = [&](const PlaneBrick& brick) {
+  const auto tell = [&](const PlaneBrick& began) {
+    const PlaneBrick brick = at_this_moment(began);
     const PlaneVec& v = brick.velocity;
     if (!is_unseen(brick.id)) {
       out[next++] = {brick.id, Phase::falling, pose_of(brick), v.x * plane_.along + Vec3{0.0, 0.0, v.z}, v.turn * plane_.across};
     }
     if (energy == nullptr) return;
-    energy->kinetic += kinetic_energy(brick);
-    energy->potential += potential_energy(world_, brick.id, brick.box.place.z);
+    // Energy hardly changes in a drift: where the velocities at its beginning are reckoned back, that of its middle is the truer one.
+    const double middle = began.box.place.z + 0.25 * drift_.whole * (began.velocity.z + began.middle.z);
+    energy->kinetic += kinetic_energy(brick, drift_.reckoned ? brick.middle : brick.velocity);
+    energy->potential += potential_energy(world_, brick.id, drift_.reckoned ? middle : brick.box.place.z);
   };
   if (repeat_.on) {
     for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) {
-      if (energy != nullptr || !is_unseen(last_struck_ + place.brick)) tell(at_this_moment(place));
+      if (energy != nullptr || !is_unseen(last_struck_ + place.brick)) tell(as_it_began(place));
     }
     return;
   }
   for (const PlaneBrick& brick : bricks_) {
-    if (brick.moving) tell(at_this_moment(brick));
+    if (brick.moving) tell(brick);
   }
 }
 

@@ -148,6 +148,7 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
   std::erase_if(rested_now_, [brick](const PlaneBrick& rested) { return rested.id == brick; });
   PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
   woken.moving = true;
+  energy_law_.add(potential_energy(world_, brick, woken.box.place.z));
   woken.quiet = 0.0;
   woken.before_drift = {};
   woken.listed_at = woken.box.place;
@@ -401,6 +402,7 @@ void PlaneFront::retire(double time) {
     const double ahead = horizon * (corner(brick.velocity) + 0.5 * horizon * gain);
     brick.quiet = ahead < kRetire * limits.retire * brick.thin && !brick.pushed ? brick.quiet + since_look_ : 0.0;
     if (brick.quiet < kPatience * limits.patience * brick.time_scale) continue;
+    energy_law_.add(-kinetic_energy(brick, brick.velocity) - potential_energy(world_, brick.id, brick.box.place.z));
     rested_ = true;
     brick.moving = false;
     --moving_;

@@ -253,7 +253,56 @@ void PlaneFront::take_blow(double whole, double next) {
   }
   plan(next, !bounced, struck_now_.empty() ? nullptr : &strike_);
   for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].load = 0.0;
-  if (!bounced) stop_at_once();
+  reckoned_ = false;
+  if (bounced) return keep_energy();
+  if (moving_ <= kFew) return stop_at_once();
+  reckon_back(next);
+}
+
+// The velocities right after a blow, as those in the middle of the drift of `next` that follows less what the forces did before the blow:
+// a solution of their own costs as much as all others of a strike. Where that would make energy it must be.
+void PlaneFront::reckon_back(double next) {
+  double energy = 0.0;
+  for (const PlaneBrick& brick : bricks_) energy += kinetic_energy(brick, after_the_blow(brick, next));
+  reckoned_ = energy <= moving_energy() + spare_energy();
+  if (!reckoned_) return stop_at_once();
+  for (PlaneBrick& brick : bricks_) {
+    if (brick.moving) brick.velocity = after_the_blow(brick, next);
+  }
+}
+
+double PlaneFront::moving_energy() const {
+  double sum = 0.0;
+  for (const PlaneBrick& brick : bricks_) {
+    if (brick.moving) sum += kinetic_energy(brick, brick.velocity);
+  }
+  return sum;
+}
+
+// What a rise of energy may be [J].
+double PlaneFront::spare_energy() const {
+  double sum = 0.0;
+  for (const PlaneBrick& brick : bricks_) {
+    if (brick.moving) sum += world_.gravity * brick.mass * brick.radius;
+  }
+  return EnergyLaw::kSpare * sum;
+}
+
+// After a kick or a bounce.
+void PlaneFront::keep_energy() {
+  const double kinetic = moving_energy();
+  double energy = kinetic;
+  for (const PlaneBrick& brick : bricks_) {
+    if (brick.moving) energy += potential_energy(world_, brick.id, brick.box.place.z);
+  }
+  if (!forces_.empty()) energy_law_.forget();
+  const double taken = energy_law_.excess(energy, spare_energy());
+  if (taken <= 0.0) return;
+  const double share = std::sqrt(std::max(1.0 - taken / kinetic, 0.0));
+  for (PlaneBrick& brick : bricks_) {
+    brick.velocity = share * brick.velocity;
+    brick.middle = share * brick.middle;
+  }
 }
 
 // The velocities right after a blow: forces may act now that did not before it, and others read them where a step ends in the drift.

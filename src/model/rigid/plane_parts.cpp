@@ -26,6 +26,7 @@ void PlaneFront::adopt(std::span<const HandedBrick> bricks) {
     }
     touches_.push_back(floor);
   }
+  energy_law_.forget();
   for (const HandedBrick& handed : bricks) list_neighbours(place_of(handed.brick));
   order();
   for (const HandedBrick& handed : bricks) mark_borne_by(place_of(handed.brick));
@@ -37,6 +38,7 @@ void PlaneFront::lose(BrickId brick) {
   for (PlaneBrick& lost : bricks_) {
     if (lost.id != brick || !lost.moving) continue;
     lost.moving = false;
+    energy_law_.forget();
     --moving_;
   }
 }
@@ -56,7 +58,7 @@ void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveF
                       brick.velocity.turn * plane_.across, brick.quiet, brick.pushed, brick.landed});
   };
   if (repeat_.on) {
-    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) hand(at_this_moment(place));
+    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) hand(at_this_moment(as_it_began(place)));
     for (const PlaneBrick& brick : bricks_) disown(brick.id);
     for (std::size_t i = 0; i < cycle_.count; ++i) {
       for (const int brick : cycle_.drifts[i].taken) disown(last_struck_ + brick);

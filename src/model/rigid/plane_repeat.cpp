@@ -143,6 +143,7 @@ void PlaneFront::write_down_places() {
   PlaneCycle::Drift& drift = cycle_.drifts[cycle_.count++];
   drift.whole = drift_.whole;
   drift.cut = drift_.cut;
+  drift.reckoned = drift_.reckoned;
   drift.places.clear();
   drift.arrivals.clear();
   drift.moves.clear();
@@ -209,7 +210,8 @@ bool PlaneFront::is_unseen(BrickId brick) const { return repeat_.on && way_ * (b
 bool PlaneFront::repeat_to(double moment) {
   while (repeat_.on) {
     const PlaneCycle::Drift& drift = cycle_.drifts[repeat_.drift];
-    drift_ = {.under_way = true, .whole = drift.whole, .cut = drift.cut, .done = std::min(moment - now_, drift.cut)};
+    drift_ = {
+        .under_way = true, .reckoned = drift.reckoned, .whole = drift.whole, .cut = drift.cut, .done = std::min(moment - now_, drift.cut)};
     for (; repeat_.arrivals < drift.arrivals.size() && drift.arrivals[repeat_.arrivals].time <= drift_.done; ++repeat_.arrivals) {
       const PlaneCycle::Arrival& arrival = drift.arrivals[repeat_.arrivals];
       note_arrival(last_struck_ + arrival.brick, now_ + arrival.time);
@@ -299,6 +301,7 @@ bool PlaneFront::next_is_alike() {
 void PlaneFront::end_repeat() {
   tell_unseen(unseen_);
   repeat_.on = false;
+  energy_law_.forget();
   drift_ = {};
   rename_kept(last_struck_);
   cycle_.first = last_struck_;
@@ -320,7 +323,7 @@ void PlaneFront::break_off() {
   adopt(bricks);
 }
 
-PlaneBrick PlaneFront::at_this_moment(const PlaneCycle::Place& place) const {
+PlaneBrick PlaneFront::as_it_began(const PlaneCycle::Place& place) const {
   PlaneBrick brick = repeat_.one;
   brick.id = last_struck_ + place.brick;
   brick.landed = place.landed;
@@ -331,7 +334,7 @@ PlaneBrick PlaneFront::at_this_moment(const PlaneCycle::Place& place) const {
   brick.middle = place.middle;
   brick.listed_at = place.listed_at;
   set_turn(brick.box);
-  return at_this_moment(brick);
+  return brick;
 }
 
 // Every brick that has moved unseen, at the beginnings of all drifts since it was struck.

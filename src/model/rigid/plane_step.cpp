@@ -53,6 +53,7 @@ void PlaneFront::advance(double begin, std::span<const PushMoment> moments) {
 
 void PlaneFront::apply(const PushMoment& moment) {
   planned_for_ = 0.0;
+  energy_law_.forget();
   if (moment.push != nullptr) return begin_push(*moment.push, moment.time);
   std::erase_if(forces_, [&](const Force& f) { return f.brick == moment.brick && f.end <= moment.time; });
   const int place = place_of(moment.brick);
@@ -81,7 +82,7 @@ void PlaneFront::begin_drift(double moment) {
   const double left = moment - now_;
   const double whole = keeps_step() && left > 1e-6 * world_.step ? std::min(stride(), left) : stride();
   if (std::abs(planned_for_ - whole) > 1e-9 * world_.step) plan(whole, false);
-  drift_ = {.under_way = true, .whole = whole, .cut = whole};
+  drift_ = {.under_way = true, .reckoned = reckoned_, .whole = whole, .cut = whole};
   if (cuts_ < world_.tolerances.cuts * moving_) {
     drift_.cut = find_cut(whole);
   } else {
@@ -109,6 +110,7 @@ void PlaneFront::end_drift() {
     note_landed(now_);
   } else if (cut == whole) {
     leap(whole);
+    keep_energy();
     wake_struck(now_);
   }
   if (since_look_ > 0.999 * kDrift * world_.step) look_around();
@@ -333,6 +335,7 @@ void PlaneFront::keep(Pattern& pattern, int head, int most) const {
 // A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
 void PlaneFront::leap(double time) {
   const double next = stride();
+  reckoned_ = false;
   make_rows(&PlaneMemory::kick);
   const int head = place_of(last_struck_);
   Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;
