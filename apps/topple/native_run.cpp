@@ -73,7 +73,7 @@ class NativeRun {
   bool over_ = false;
 };
 
-std::expected<NextBytes, Refusal> begin(const std::string& text, int threads, const std::shared_ptr<std::atomic<bool>>& taken) {
+std::expected<NextBytes, Refusal> begin(const std::string& text, int threads, int lanes, const std::shared_ptr<std::atomic<bool>>& taken) {
   constexpr int kBusy = 503, kBadLayout = 422;
   if (taken->exchange(true)) return std::unexpected(Refusal{kBusy, "This program is running another layout; one at a time."});
   auto place = std::make_unique<Place>(taken);
@@ -83,6 +83,7 @@ std::expected<NextBytes, Refusal> begin(const std::string& text, int threads, co
   if (!model) return std::unexpected(Refusal{kBadLayout, model.error().message});
   RunConfig config;
   config.threads = threads;
+  config.lanes = lanes;
   Result<Simulation> simulation = Simulation::start(std::move(*layout), *model, config);
   if (!simulation) return std::unexpected(Refusal{kBadLayout, simulation.error().message});
   auto run = std::make_shared<NativeRun>(std::move(*simulation), std::move(place));
@@ -109,7 +110,8 @@ void NativeRuns::offer(Site& site) const {
 
 void NativeRuns::serve(PageServer& server) const {
   auto taken = std::make_shared<std::atomic<bool>>(false);
-  server.stream(token_, kMostText, [threads = threads_, taken](const std::string& text) { return begin(text, threads, taken); });
+  server.stream(token_, kMostText,
+                [threads = threads_, lanes = lanes_, taken](const std::string& text) { return begin(text, threads, lanes, taken); });
 }
 
 }  // namespace topple::app

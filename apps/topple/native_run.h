@@ -16,7 +16,7 @@ inline constexpr int kNativeBricks = 3'000;
 /// Begins runs of layouts given as text, one at a time.
 class NativeRuns {
  public:
-  explicit NativeRuns(int threads) : threads_(threads) {}
+  explicit NativeRuns(int threads, int lanes = 0) : threads_(threads), lanes_(lanes) {}
 
   /// Answers the page's orders under a token, and tells the page in its head where to send them.
   void offer(Site& site) const;
@@ -24,6 +24,7 @@ class NativeRuns {
 
  private:
   int threads_ = 1;
+  int lanes_ = 0;
   std::string token_ = make_token();
 };
 

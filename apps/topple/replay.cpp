@@ -27,6 +27,7 @@ class ReplayVerb final : public Verb {
     Progress bar;
     RunConfig config;
     config.threads = options_.threads;
+    config.lanes = options_.lanes;
     config.watch = [&bar](const RunProgress& progress, const Recording&) {
       bar.show(progress);
       return !interrupted();

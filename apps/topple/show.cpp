@@ -71,7 +71,7 @@ class ShowVerb final : public Verb {
     if (!summary) {
       return summary.error();
     }
-    const NativeRuns runs(options_.threads);
+    const NativeRuns runs(options_.threads, options_.lanes);
     runs.offer(*site);
     Result<PageServer> server = PageServer::listen(std::move(*site), port_);
     if (!server) {

@@ -29,6 +29,10 @@ std::string check_duration(const std::string& text) {
   return number && std::isfinite(value) && value > 0.0 ? std::string() : "'" + text + "' is not a time above 0 s";
 }
 
+std::string check_lanes(const std::string& text) {
+  return text == "1" || text == "2" || text == "4" ? std::string() : "'" + text + "' is not 1, 2 or 4";
+}
+
 /// Options that steer a run say nothing about one that was run already.
 std::string useless_option(const RunOptions& options) {
   if (!options.model.empty()) {
@@ -56,6 +60,12 @@ void declare(CLI::App& app, RunOptions& options, const std::string& what) {
   app.add_option("--threads", options.threads, "Threads; the result does not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, kMostThreads));
+  app.add_option(
+         "--lanes", options.lanes,
+         "Numbers that rigid works on side by side (1, 2 or 4); without it as many as the processor has; the result does not depend "
+         "on it")
+      ->type_name("N")
+      ->check(CLI::Validator(check_lanes, ""));
 }
 
 std::vector<std::string> overrides_of(const RunOptions& options) {
@@ -80,6 +90,7 @@ std::expected<Recording, int> run_layout(const RunOptions& options, const Watch&
   RunConfig config;
   config.until = options.until;
   config.threads = options.threads;
+  config.lanes = options.lanes;
   config.profile = options.profile;
   config.watch = [&](const RunProgress& progress, const Recording& recording) {
     bar.show(progress);

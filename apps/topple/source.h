@@ -20,6 +20,7 @@ struct RunOptions {
   std::vector<std::string> settings;                       ///< "key=value", over what the layout says.
   double until = std::numeric_limits<double>::infinity();  ///< [s]
   int threads = 1;
+  int lanes = 0;               ///< 0: as many as the processor has.
   Profile* profile = nullptr;  ///< Where the time goes; null where nobody asks.
 };
 

@@ -174,6 +174,7 @@ struct RigidConfig {
   bool every_brick_moves = false;
   // affects speed only
   bool repeats = true;         ///< In an even row, what follows a strike as it followed the one before is not computed again.
+  int lanes = 0;               ///< Numbers side by side in the contact solver: 1, 2 or 4; 0: as many as the processor has.
   Crew* crew = nullptr;        ///< Null: the calling thread alone. A run sets it.
   Profile* profile = nullptr;  ///< Null: nobody asks. A run sets it.
 };

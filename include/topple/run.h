@@ -36,6 +36,7 @@ struct RunConfig {
 
   // affects speed only
   int threads = 1;
+  int lanes = 0;               ///< RigidConfig::lanes, unless 0.
   Profile* profile = nullptr;  ///< Where the time of the run's stages is added; null: nowhere.
 
   /// Called some twenty times a second with the recording so far; returning false stops the run cleanly.

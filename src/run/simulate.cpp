@@ -107,6 +107,7 @@ Result<Simulation> Simulation::start(Layout layout, const ModelConfig& model_con
   if (auto* rigid = std::get_if<RigidConfig>(&shared)) {
     rigid->crew = &state.crew;
     rigid->profile = config.profile;
+    if (config.lanes != 0) rigid->lanes = config.lanes;
     state.names_stages = true;
   }
   auto made = make_model(state.recording.layout(), shared);

@@ -41,14 +41,24 @@ Layout scene_of(const std::string& scene, const std::vector<std::string>& overri
   return *std::move(layout);
 }
 
-std::string hash_of(const Layout& layout, int threads = 1) {
+std::string hash_of(const Layout& layout, const RunConfig& run = {}) {
   const auto config = model_config(layout);
   REQUIRE_MESSAGE(config.has_value(), config.error().message);
-  const auto recording = simulate(layout, *config, {.threads = threads});
+  const auto recording = simulate(layout, *config, run);
   REQUIRE_MESSAGE(recording.has_value(), recording.error().message);
   std::ostringstream text;
   text << std::hex << std::setw(16) << std::setfill('0') << recording->end().hash;
   return text.str();
+}
+
+// Of 1, 2 and 4.
+std::vector<int> lanes_of_this_processor() {
+  const Layout three = *read_layout("[[row]]\ncount = 3\npitch_mm = 24\n", "three.toml");
+  std::vector<int> all;
+  for (const int lanes : {1, 2, 4}) {
+    if (make_model(three, RigidConfig{.lanes = lanes}).has_value()) all.push_back(lanes);
+  }
+  return all;
 }
 
 }  // namespace
@@ -57,6 +67,19 @@ TEST_CASE("every scene moves exactly as it did") {
   for (const Golden& golden : golden_hashes()) {
     const std::string hash = hash_of(scene_of(golden.scene, {"model.name=\"" + golden.model + "\""}));
     CHECK_MESSAGE(hash == golden.hash, golden.scene, " by ", golden.model);
+  }
+}
+
+TEST_CASE("no hash depends on the number of lanes") {
+  const std::vector<int> lanes = lanes_of_this_processor();
+  REQUIRE(lanes.size() > 1);
+  for (const Golden& golden : golden_hashes()) {
+    if (golden.model != "rigid") continue;
+    const Layout layout = scene_of(golden.scene, {"model.name=\"rigid\""});
+    // The last one, the most, is what runs by itself.
+    for (std::size_t i = 0; i + 1 < lanes.size(); ++i) {
+      CHECK_MESSAGE(hash_of(layout, {.lanes = lanes[i]}) == golden.hash, golden.scene, " with ", lanes[i], " lanes");
+    }
   }
 }
 
@@ -92,8 +115,8 @@ TEST_CASE("a friction that differs by 1e-12 gives another hash") {
 TEST_CASE("the hash does not depend on the number of threads") {
   const Layout fronts = scene_of("fronts.toml", {"model.name=\"rigid\""});
   const std::string alone = hash_of(fronts);
-  CHECK(hash_of(fronts, 2) == alone);
-  CHECK(hash_of(fronts, 4) == alone);
+  CHECK(hash_of(fronts, {.threads = 2}) == alone);
+  CHECK(hash_of(fronts, {.threads = 4}) == alone);
 }
 
 }  // namespace topple

@@ -31,7 +31,7 @@ void add_row(std::vector<ContactRow>& rows, std::span<const Body> bodies, int a,
   const Body* other = b == kFloor ? nullptr : &bodies[static_cast<std::size_t>(b)];
   if (other != nullptr) row.arm_b = point - other->position;
   set_directions(row, bodies[static_cast<std::size_t>(a)]);
-  set_couplings(row, bodies[static_cast<std::size_t>(a)], other);
+  set_couplings(row, bodies[static_cast<std::size_t>(a)], other, *lane_kernels(0));
   row.normal_stiffness = row.normal_mass / 1e-4;
   row.tangent_stiffness = row.mass / 1e-4;
   row.friction = friction;
@@ -83,7 +83,7 @@ void solve(Scene& scene) {
   std::vector<Twist> guess;
   guess.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies) guess.push_back({body.velocity, body.angular_velocity});
-  ContactSolver solver;
+  ContactSolver solver(*lane_kernels(0));
   solver.solve(scene.bodies, scene.rows, guess, {kTolerance, 60, 0.02, false});
 }
 
@@ -93,7 +93,7 @@ void sweep(Scene& scene, int most) {
     const Vec3 &v = body.velocity, &w = body.angular_velocity;
     free.push_back({v.x, v.y, v.z, w.x, w.y, w.z});
   }
-  Sweeps sweeps;
+  Sweeps sweeps(*lane_kernels(0));
   sweeps.begin(scene.rows, free);
   sweeps.run(scene.rows, most, kTolerance);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

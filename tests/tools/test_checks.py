@@ -7,6 +7,7 @@ from pathlib import Path
 TREE = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TREE / "tools"))
 import check_includes  # noqa: E402
+import check_lanes  # noqa: E402
 import check_references  # noqa: E402
 import check_sizes  # noqa: E402
 
@@ -24,6 +25,18 @@ class Tree(unittest.TestCase):
     def write(self, path, text):
         (self.tree / path).parent.mkdir(parents=True, exist_ok=True)
         (self.tree / path).write_text(text, encoding="utf-8")
+
+
+class Lanes(unittest.TestCase):
+    def leaked(self, line):
+        return check_lanes.leaked(f"lib.a:lanes_2.cpp.o:0 W _ZSt3maxIdERKT_S2_S2_\nlib.a:lanes_4.cpp.o:{line}\n")
+
+    def test_what_depends_on_the_number_of_lanes_or_is_local_may_stay(self):
+        for line in ("0 W _ZN6topple5rigid6largerILi4EEEddd", "0 T _ZN6topple5rigid10four_lanesEv", "0 r .LC0", "0 t _ZL5localv"):
+            self.assertEqual(self.leaked(line), [], line)
+
+    def test_an_inline_function_of_everybodys_is_found(self):
+        self.assertEqual(self.leaked("0 W _ZSt3maxIdERKT_S2_S2_"), ["_ZSt3maxIdERKT_S2_S2_"])
 
 
 class Includes(Tree):

@@ -11,11 +11,38 @@
 
 namespace topple::rigid {
 
-/// Six by six, row by row. Rows and columns: along x, y, z, about x, y, z.
+struct LaneKernels;
+
+/// Six by six, row by row: the first four numbers of each row, then the last two of each, so that no load crosses a cache line. Rows and
+/// columns: along x, y, z, about x, y, z. Plain arrays, for what lanes.h says.
 struct BrickBlock {
-  std::array<Wide, 6> row{};
-  double at(std::size_t r, std::size_t c) const { return row[r][c / 2][c % 2]; }
-  void set(std::size_t r, std::size_t c, double value) { row[r][c / 2][c % 2] = value; }
+  alignas(32) double low[6][4];
+  double high[6][2];
+
+  double& at(std::size_t r, std::size_t c) { return c < 4 ? low[r][c] : high[r][c - 4]; }
+};
+
+/// The inverse of a block by its four quarters [p q; r s].
+struct BlockInverse {
+  double p[9];  ///< Of the first quarter.
+  double x[9];  ///< That times q.
+  double r[9];
+  double s[9];  ///< Of s - r p^-1 q.
+};
+
+struct BrickRow {
+  BrickBlock diagonal = {};
+  BlockInverse inverse = {};
+  double forward[6] = {};  ///< The right-hand side after the first factor.
+  std::size_t begin = 0, end = 0;
+  bool changed = true;
+};
+
+struct BrickEntry {
+  int column = 0;
+  bool filled = false;                ///< The left factor is not `lower` itself.
+  BrickBlock lower = {}, upper = {};  ///< The matrix.
+  BrickBlock left = {}, above = {};   ///< Its factors; of the one above the diagonal is one.
 };
 
 /// Symmetric in its pattern, not in its numbers. Bricks are eliminated in the order of their numbers, each with a block for every later one
@@ -33,38 +60,11 @@ class BrickMatrix {
   /// Equations of this brick have changed.
   void touch(int i) { rows_[static_cast<std::size_t>(i)].changed = true; }
   /// False if a block has no inverse.
-  bool solve(std::span<const Column<6>> right, std::span<Column<6>> x);
+  bool solve(const LaneKernels& kernels, std::span<const Column<6>> right, std::span<Column<6>> x);
 
  private:
-  /// The inverse of a block by its four quarters [p q; r s].
-  struct Inverse {
-    Block<3> p;  ///< Of the first quarter.
-    Block<3> x;  ///< That times q.
-    Block<3> r;
-    Block<3> s;  ///< Of s - r p^-1 q.
-  };
-  struct Row {
-    BrickBlock diagonal;
-    Inverse inverse;
-    Column<6> forward{};  ///< The right-hand side after the first factor.
-    std::size_t begin = 0, end = 0;
-    bool changed = true;
-  };
-  struct Entry {
-    int column = 0;
-    bool filled = false;      ///< The left factor is not `lower` itself.
-    BrickBlock lower, upper;  ///< The matrix.
-    BrickBlock left, above;   ///< Its factors; of the one above the diagonal is one.
-    const BrickBlock& factor() const { return filled ? left : lower; }
-  };
-  void fill(Entry& entry, std::size_t begin, std::size_t at, BrickBlock& above);
-  bool factorise(std::size_t i);
-  static bool invert(const BrickBlock& of, Inverse& out);
-  static void divide(const Inverse& by, const BrickBlock& block, BrickBlock& out);
-  static Column<6> divide(const Inverse& by, const Column<6>& y);
-
-  std::vector<Row> rows_;
-  std::vector<Entry> entries_;
+  std::vector<BrickRow> rows_;
+  std::vector<BrickEntry> entries_;
   std::vector<int> columns_, parent_, mark_;
 };
 

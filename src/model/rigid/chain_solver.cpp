@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rigid/point_motion.h"
+
 namespace topple::rigid {
 
 namespace {
@@ -11,50 +13,7 @@ constexpr double kWorst = 0.8;  // States that are wrong by this share of the wo
 // The way that a point slides may be wrong by so many tolerances: it is found anew in the next solution.
 constexpr double kTurned = 30.0;
 
-// Three rows of six: what an impulse along x, y, z is, by the velocities of a brick.
-using WideRows = std::array<Wide, 3>;
-
-// The columns of a brick whose point lies at `arm`, from the three of the point.
-WideRows with_arm(const std::array<Vec3, 3>& stiffness, const Vec3& arm) {
-  WideRows out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3& k = stiffness[i];
-    const Vec3 turning = cross(arm, k);
-    out[i] = {Two{k.x, k.y}, Two{k.z, turning.x}, Two{turning.y, turning.z}};
-  }
-  return out;
-}
-
-// Adds the rows of a brick whose point lies at `arm`; or takes them off.
-template <bool kAdd>
-void put(BrickBlock& block, const WideRows& rows, const Vec3& arm) {
-  const Two x{arm.x, arm.x}, y{arm.y, arm.y}, z{arm.z, arm.z};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Two about_x = y * rows[2][k] - z * rows[1][k], about_y = z * rows[0][k] - x * rows[2][k],
-              about_z = x * rows[1][k] - y * rows[0][k];
-    if constexpr (kAdd) {
-      block.row[0][k] += rows[0][k];
-      block.row[1][k] += rows[1][k];
-      block.row[2][k] += rows[2][k];
-      block.row[3][k] += about_x;
-      block.row[4][k] += about_y;
-      block.row[5][k] += about_z;
-    } else {
-      block.row[0][k] -= rows[0][k];
-      block.row[1][k] -= rows[1][k];
-      block.row[2][k] -= rows[2][k];
-      block.row[3][k] -= about_x;
-      block.row[4][k] -= about_y;
-      block.row[5][k] -= about_z;
-    }
-  }
-}
-
-void add_impulse(Velocity& right, const Vec3& impulse, const Vec3& arm) {
-  const Vec3 turning = cross(arm, impulse);
-  right = {right[0] + impulse.x, right[1] + impulse.y, right[2] + impulse.z,
-           right[3] + turning.x, right[4] + turning.y, right[5] + turning.z};
-}
+double* six_by_six(std::span<Velocity> velocity) { return velocity.empty() ? nullptr : velocity.front().data(); }
 
 }  // namespace
 
@@ -75,16 +34,19 @@ void ChainSolver::begin(std::span<const ContactRow> rows, std::span<const Body> 
 // Where a point slides now tells which way; if that is too slow to tell, the friction that it had.
 void ChainSolver::assume(std::span<const ContactRow> rows, std::span<const Velocity> guess) {
   assumed_.resize(rows.size());
+  ends_.resize(rows.size());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ContactRow& row = rows[k];
     Assumed& as = assumed_[k];
     as = {};
-    as.a = order_.number(row.a);
-    as.b = order_.number(row.b);
-    if (as.a >= 0 && as.b >= 0) as.entry = matrix_.entry(std::max(as.a, as.b), std::min(as.a, as.b));
+    const auto [a, b] = ends_[k] = {order_.number(row.a), order_.number(row.b)};
+    if (a >= 0 && b >= 0) as.entry = matrix_.entry(std::max(a, b), std::min(a, b));
     as.state = row.state;
     if (!as.state.slides) continue;
-    const auto [normal, along, across] = slip_of(row, guess);
+    std::array<double, 3> slip{};
+    const auto of = [&guess](int body) { return body == kFloor ? nullptr : guess[static_cast<std::size_t>(body)].data(); };
+    slip_of<2>(row, of(row.a), of(row.b), slip.data());
+    const auto [normal, along, across] = slip;
     const double speed = std::sqrt(along * along + across * across), limit = row.friction * (row.base + row.impulse[0]);
     const bool slow = row.tangent_stiffness * speed <= limit || speed == 0.0;
     const double rubbed = slow ? std::sqrt(row.impulse[1] * row.impulse[1] + row.impulse[2] * row.impulse[2]) : 0.0;
@@ -105,24 +67,26 @@ void ChainSolver::assemble(std::span<const ContactRow> rows, std::span<const Vel
     const double mass = mass_[i];
     const Mat3& inertia = inertia_[i];
     BrickBlock& m = matrix_.diagonal(static_cast<int>(i));
-    m.row[0] = {Two{mass, 0.0}, Two{}, Two{}};
-    m.row[1] = {Two{0.0, mass}, Two{}, Two{}};
-    m.row[2] = {Two{}, Two{mass, 0.0}, Two{}};
-    m.row[3] = {Two{}, Two{0.0, inertia.r0.x}, Two{inertia.r0.y, inertia.r0.z}};
-    m.row[4] = {Two{}, Two{0.0, inertia.r1.x}, Two{inertia.r1.y, inertia.r1.z}};
-    m.row[5] = {Two{}, Two{0.0, inertia.r2.x}, Two{inertia.r2.y, inertia.r2.z}};
+    m = {};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& turning = k == 0 ? inertia.r0 : k == 1 ? inertia.r1 : inertia.r2;
+      m.low[k][k] = mass;
+      m.low[k + 3][3] = turning.x;
+      m.high[k + 3][0] = turning.y;
+      m.high[k + 3][1] = turning.z;
+    }
     const Velocity& v = free[static_cast<std::size_t>(order_.bodies()[i])];
     const Vec3 l = inertia * Vec3{v[3], v[4], v[5]};
     right_[i] = {mass * v[0], mass * v[1], mass * v[2], l.x, l.y, l.z};
   }
   for (std::size_t k = 0; k < rows.size(); ++k) {
     assumed_[k].law = law_of(rows[k], assumed_[k]);
-    add(rows[k], assumed_[k], assumed_[k].law);
+    add(k, rows[k], assumed_[k].law);
   }
 }
 
-ChainSolver::Law ChainSolver::law_of(const ContactRow& row, const Assumed& as) {
-  Law law;
+PointLaw ChainSolver::law_of(const ContactRow& row, const Assumed& as) {
+  PointLaw law;
   if (!as.state.pressed && row.base == 0.0) return law;
   law.nn = as.state.pressed ? row.normal_stiffness : 0.0;
   if (!as.state.slides) {
@@ -142,33 +106,30 @@ ChainSolver::Law ChainSolver::law_of(const ContactRow& row, const Assumed& as) {
 }
 
 // Adds a law, or the difference of two, to the system of equations.
-void ChainSolver::add(const ContactRow& row, const Assumed& as, const Law& law) {
-  const Vec3 &n = row.normal, &s = row.along, &t = row.across;
-  // By the slip along n, s and t.
-  const Vec3 by_n = law.nn * n + law.an * s + law.cn * t, by_s = law.aa * s + law.ac * t, by_t = law.ac * s + law.cc * t;
-  const std::array<Vec3, 3> stiffness{by_n.x * n + by_s.x * s + by_t.x * t, by_n.y * n + by_s.y * s + by_t.y * t,
-                                      by_n.z * n + by_s.z * s + by_t.z * t};
-  const Vec3 rest = row.bias[0] * by_n + row.bias[1] * by_s + row.bias[2] * by_t + law.rest_along * s + law.rest_across * t;
-  WideRows of_a, of_b;
-  if (as.a >= 0) {
-    matrix_.touch(as.a);
-    of_a = with_arm(stiffness, row.arm_a);
-    put<true>(matrix_.diagonal(as.a), of_a, row.arm_a);
-    add_impulse(right_[static_cast<std::size_t>(as.a)], -rest, row.arm_a);
+void ChainSolver::add(std::size_t k, const ContactRow& row, const PointLaw& law) {
+  const auto [a, b] = ends_[k];
+  PointEquations to;
+  if (a >= 0) {
+    matrix_.touch(a);
+    to.own_a = &matrix_.diagonal(a);
+    to.right_a = right_[static_cast<std::size_t>(a)].data();
   }
-  if (as.b < 0) return;
-  matrix_.touch(as.b);
-  of_b = with_arm(stiffness, row.arm_b);
-  put<true>(matrix_.diagonal(as.b), of_b, row.arm_b);
-  add_impulse(right_[static_cast<std::size_t>(as.b)], rest, row.arm_b);
-  if (as.a < 0) return;
-  put<false>(as.a > as.b ? matrix_.lower(as.entry) : matrix_.upper(as.entry), of_b, row.arm_a);
-  put<false>(as.a > as.b ? matrix_.upper(as.entry) : matrix_.lower(as.entry), of_a, row.arm_b);
+  if (b >= 0) {
+    matrix_.touch(b);
+    to.own_b = &matrix_.diagonal(b);
+    to.right_b = right_[static_cast<std::size_t>(b)].data();
+  }
+  if (a >= 0 && b >= 0) {
+    const std::size_t entry = assumed_[k].entry;
+    to.a_by_b = a > b ? &matrix_.lower(entry) : &matrix_.upper(entry);
+    to.b_by_a = a > b ? &matrix_.upper(entry) : &matrix_.lower(entry);
+  }
+  kernels_.add_law(row, law, to);
 }
 
 // Velocities that follow.
 bool ChainSolver::solve_system() {
-  if (!matrix_.solve(right_, velocity_)) return false;
+  if (!matrix_.solve(kernels_, right_, velocity_)) return false;
   double sum = 0.0;
   for (const Velocity& v : velocity_) sum += v[0] + v[1] + v[2] + v[3] + v[4] + v[5];
   return std::isfinite(sum);
@@ -225,16 +186,17 @@ void ChainSolver::settle_row(const ContactRow& row, const Framed& slip, double t
 bool ChainSolver::settle(std::span<const ContactRow> rows, double tolerance) {
   std::fill(most_wrong_.begin(), most_wrong_.end(), 0.0);
   bool settled = true;
+  slips_.resize(rows.size());
+  kernels_.slips(rows.data(), ends_.data(), rows.size(), six_by_six(velocity_), slips_.empty() ? nullptr : slips_.front().data());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const ContactRow& row = rows[k];
     Assumed& as = assumed_[k];
-    const auto of = [this](int number) { return number < 0 ? nullptr : &velocity_[static_cast<std::size_t>(number)]; };
-    const Framed slip = slip_of(row, of(as.a), of(as.b));
-    settle_row(row, slip, tolerance, as);
+    settle_row(row, slips_[k], tolerance, as);
     if (as.wrong == 0.0 && !as.turned) continue;
     settled = false;
-    if (as.a >= 0) most_wrong_[static_cast<std::size_t>(as.a)] = std::max(most_wrong_[static_cast<std::size_t>(as.a)], as.wrong);
-    if (as.b >= 0) most_wrong_[static_cast<std::size_t>(as.b)] = std::max(most_wrong_[static_cast<std::size_t>(as.b)], as.wrong);
+    for (const int number : {ends_[k].a, ends_[k].b}) {
+      if (number >= 0) most_wrong_[static_cast<std::size_t>(number)] = std::max(most_wrong_[static_cast<std::size_t>(number)], as.wrong);
+    }
   }
   return settled;
 }
@@ -256,7 +218,7 @@ void ChainSolver::change(std::span<const ContactRow> rows) {
     if (as.wrong == 0.0 && !as.turned) continue;
     if (as.wrong > 0.0) {
       const auto most = [this](int number) { return number < 0 ? 0.0 : most_wrong_[static_cast<std::size_t>(number)]; };
-      if (as.wrong < kWorst * std::max(most(as.a), most(as.b))) continue;
+      if (as.wrong < kWorst * std::max(most(ends_[k].a), most(ends_[k].b))) continue;
       as.pulled = as.pulled || (as.state.pressed && !as.state.slides && !as.should.pressed);
     }
     as.coupled =
@@ -266,9 +228,9 @@ void ChainSolver::change(std::span<const ContactRow> rows) {
     as.way_along = as.should_along;
     as.way_across = as.should_across;
     as.drag = as.should_drag;
-    const Law before = as.law;
+    const PointLaw before = as.law;
     as.law = law_of(row, as);
-    add(row, as,
+    add(k, row,
         {as.law.nn - before.nn, as.law.an - before.an, as.law.cn - before.cn, as.law.aa - before.aa, as.law.ac - before.ac,
          as.law.cc - before.cc, as.law.rest_along - before.rest_along, as.law.rest_across - before.rest_across});
   }

@@ -6,7 +6,7 @@
 
 #include "model/rigid/body_order.h"
 #include "model/rigid/brick_matrix.h"
-#include "model/rigid/contact_row.h"
+#include "model/rigid/lane_kernels.h"
 
 namespace topple::rigid {
 
@@ -15,6 +15,7 @@ namespace topple::rigid {
 /// is linearised about the last one [Alart1991]. It may fail to settle: then it says so.
 class ChainSolver {
  public:
+  explicit ChainSolver(const LaneKernels& kernels) : kernels_(kernels) {}
   /// In which order bodies are eliminated follows from who touches whom; once for all solutions with the same rows.
   void begin(std::span<const ContactRow> rows, std::span<const Body> bodies);
   /// From the states that the rows hold; the way that a point slides follows from `guess`, what velocities will be near. If it settles, to
@@ -26,21 +27,15 @@ class ChainSolver {
   const BodyOrder& order() const { return order_; }
 
  private:
-  /// What a point does in its state: its impulse on a is -(k slip + rest), k by rows; the normal needs no more than its own slip.
-  struct Law {
-    double nn = 0.0, an = 0.0, cn = 0.0, aa = 0.0, ac = 0.0, cc = 0.0;  // n: normal, a: along, c: across [kg].
-    double rest_along = 0.0, rest_across = 0.0;                         // [N s]
-  };
   /// A row's state and the way it slides, as the system of equations has it.
   struct Assumed {
-    int a = -1, b = -1;     // Its bodies' numbers.
-    std::size_t entry = 0;  // Of both, in the matrix.
+    std::size_t entry = 0;  // Of both its bricks, in the matrix.
     ContactState state;
     double way_along = 0.0, way_across = 0.0;  // Unit, the way it slides.
     bool coupled = true;                       // Its friction follows its normal impulse; else it is...
     double limit = 0.0;                        // ...this [N s].
     double drag = 0.0;                         // Impulse per velocity across that way [kg].
-    Law law;
+    PointLaw law;
     Framed impulse{};  // That follows from the velocities found, by the true law [N s].
     ContactState should;
     double should_along = 0.0, should_across = 0.0;
@@ -51,20 +46,23 @@ class ChainSolver {
   };
   void assume(std::span<const ContactRow> rows, std::span<const Velocity> guess);
   void assemble(std::span<const ContactRow> rows, std::span<const Velocity> free);
-  static Law law_of(const ContactRow& row, const Assumed& as);
-  void add(const ContactRow& row, const Assumed& as, const Law& law);
+  static PointLaw law_of(const ContactRow& row, const Assumed& as);
+  void add(std::size_t k, const ContactRow& row, const PointLaw& law);
   bool solve_system();
   static void settle_row(const ContactRow& row, const Framed& slip, double tolerance, Assumed& as);
   bool settle(std::span<const ContactRow> rows, double tolerance);
   void keep_best(std::span<const ContactRow> rows);
   void change(std::span<const ContactRow> rows);
 
+  const LaneKernels& kernels_;
   BodyOrder order_;
   std::vector<double> mass_;   // Of each number [kg].
   std::vector<Mat3> inertia_;  // [kg m^2]
   BrickMatrix matrix_;
   std::vector<Velocity> right_, velocity_;
   std::vector<Assumed> assumed_;
+  std::vector<PointEnds> ends_;  // Of each row.
+  std::vector<Framed> slips_;    // By the velocities found [m/s].
   std::vector<Framed> best_;
   double least_wrong_ = 0.0;
   std::vector<double> most_wrong_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/rigid/lane_kernels.h"
+
 namespace topple::rigid {
 
 namespace {
@@ -17,18 +19,6 @@ Vec3 tangent_of(const Vec3& normal, const Vec3& heading) {
   return (1.0 / norm(side)) * cross(side, normal);
 }
 
-Wide wide_of(const Vec3& linear, const Vec3& spin) { return {Two{linear.x, linear.y}, Two{linear.z, spin.x}, Two{spin.y, spin.z}}; }
-
-void couple(const Body& body, const Vec3& arm, const std::array<Vec3, 3>& directions, double sign, std::array<Wide, 3>& of,
-            std::array<Wide, 3>& gain) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 push = sign * directions[k];
-    const Vec3 twist = cross(arm, push);
-    of[k] = wide_of(push, twist);
-    gain[k] = wide_of(body.inverse_mass * push, body.inverse_inertia * twist);
-  }
-}
-
 }  // namespace
 
 void set_directions(ContactRow& row, const Body& a) {
@@ -36,20 +26,8 @@ void set_directions(ContactRow& row, const Body& a) {
   row.across = cross(row.normal, row.along);
 }
 
-void set_couplings(ContactRow& row, const Body& a, const Body* b) {
-  const std::array<Vec3, 3> directions{row.normal, row.along, row.across};
-  couple(a, row.arm_a, directions, 1.0, row.of_a, row.gain_a);
-  if (b != nullptr) couple(*b, row.arm_b, directions, -1.0, row.of_b, row.gain_b);
-  const auto response = [&row, b](std::size_t to, std::size_t from) {
-    const double own = product_of(row.of_a[to], row.gain_a[from]);
-    return b == nullptr ? own : own + product_of(row.of_b[to], row.gain_b[from]);
-  };
-  row.k_nn = response(0, 0);
-  row.k_na = response(1, 0);
-  row.k_nc = response(2, 0);
-  row.k_aa = response(1, 1);
-  row.k_ac = response(2, 1);
-  row.k_cc = response(2, 2);
+void set_couplings(ContactRow& row, const Body& a, const Body* b, const LaneKernels& kernels) {
+  kernels.couple(row, a, b);
   row.normal_mass = 1.0 / row.k_nn;
   row.mass = 2.0 / (row.k_aa + row.k_cc);
 }

@@ -34,6 +34,7 @@ struct SolveLimits {
 /// sweeps with another law of friction that always has a solution have the last word. In stacks the augmented Lagrangian helps them.
 class ContactSolver {
  public:
+  explicit ContactSolver(const LaneKernels& kernels) : chain_(kernels), sweeps_(kernels) {}
   /// `bodies` come with the velocities that they would have without contact, rows with what they carried and did the last time; `guess` is
   /// near what velocities will be. Afterwards bodies have their velocities and rows their impulses.
   void solve(std::span<Body> bodies, std::span<ContactRow> rows, std::span<const Twist> guess, const SolveLimits& limits);

@@ -179,7 +179,7 @@ void Front::make_rows(ContactState PointMemory::* guess, double time) {
       } else {
         set_directions(row, a);
       }
-      set_couplings(row, a, b);
+      set_couplings(row, a, b, *world_.kernels);
       row.normal_stiffness = row.normal_mass / kCompliance;
       row.tangent_stiffness = row.mass / kCompliance;
       const double carries = world_.stacked ? 0.0 : time * memory.normal_force;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/rigid/point_motion.h"
+
 namespace topple::rigid {
 
 namespace {
@@ -31,7 +33,8 @@ std::array<double, 6> times(const std::array<double, 10>& m, std::span<const dou
           m[3] * v[3] + m[5] * v[4] + m[6] * v[5]};
 }
 
-double part_of(const Wide& v, std::size_t k) { return v[k / 2][k % 2]; }
+// What a row has of its bricks: 0 for a, 1 for b.
+using Directions = double[3][12];
 
 double product(std::span<const double> a, std::span<const double> b) {
   double sum = 0.0;
@@ -45,22 +48,26 @@ std::span<const double> six(std::span<const double> all, int number) {
 std::span<double> six(std::span<double> all, int number) { return all.subspan(kWide * static_cast<std::size_t>(number), kWide); }
 
 // Sum over one brick's side of a point.
-void add_motion(const std::array<Wide, 3>& of, std::span<const double> v, Vec3& w) {
+void add_motion(const Directions& of, std::size_t brick, std::span<const double> v, Vec3& w) {
   for (std::size_t k = 0; k < kWide; ++k) {
-    w.x += part_of(of[0], k) * v[k];
-    w.y += part_of(of[1], k) * v[k];
-    w.z += part_of(of[2], k) * v[k];
+    const std::size_t at = beside(brick, k);
+    w.x += of[0][at] * v[k];
+    w.y += of[1][at] * v[k];
+    w.z += of[2][at] * v[k];
   }
 }
 
-// block += left^T D right, D the point's 3 x 3 stiffness; the block's row is that of `left`.
-void add_stiffness(const std::array<Wide, 3>& left, const std::array<Wide, 3>& right, const std::array<double, 4>& d, Block6& block) {
+// block += left^T D right of two bricks, D the point's 3 x 3 stiffness; the block's row is that of `left`.
+void add_stiffness(const Directions& of, std::size_t left, std::size_t right, const std::array<double, 4>& d, Block6& block) {
   for (std::size_t c = 0; c < kWide; ++c) {
-    const double n = d[0] * part_of(right[0], c);
-    const double s = d[1] * part_of(right[1], c) + d[2] * part_of(right[2], c);
-    const double t = d[2] * part_of(right[1], c) + d[3] * part_of(right[2], c);
-    for (std::size_t r = 0; r < kWide; ++r)
-      block[kWide * c + r] += part_of(left[0], r) * n + part_of(left[1], r) * s + part_of(left[2], r) * t;
+    const std::size_t column = beside(right, c);
+    const double n = d[0] * of[0][column];
+    const double s = d[1] * of[1][column] + d[2] * of[2][column];
+    const double t = d[2] * of[1][column] + d[3] * of[2][column];
+    for (std::size_t r = 0; r < kWide; ++r) {
+      const std::size_t row = beside(left, r);
+      block[kWide * c + r] += of[0][row] * n + of[1][row] * s + of[2][row] * t;
+    }
   }
 }
 
@@ -97,8 +104,8 @@ void NewtonSolver::try_impulses(std::span<const ContactRow> rows, std::span<cons
     RowPart& part = parts_[i];
     Vec3 w{row.bias[0], row.bias[1], row.bias[2]};
     const int a = order_->number(row.a), b = order_->number(row.b);
-    if (a >= 0) add_motion(row.of_a, six(velocity, a), w);
-    if (b >= 0) add_motion(row.of_b, six(velocity, b), w);
+    if (a >= 0) add_motion(row.of, 0, six(velocity, a), w);
+    if (b >= 0) add_motion(row.of, 1, six(velocity, b), w);
     const double n = row.impulse[0] - part.penalty_n * w.x;
     part.n = std::max(n, 0.0);
     part.stiffness = {n > 0.0 ? part.penalty_n : 0.0, part.penalty_t, 0.0, part.penalty_t};
@@ -126,17 +133,19 @@ void NewtonSolver::gradient(std::span<const ContactRow> rows, std::span<const do
     const std::array<double, 6> momentum = times(mass_[i], change);
     std::copy(momentum.begin(), momentum.end(), six(out, static_cast<int>(i)).begin());
   }
-  const auto pull = [](const std::array<Wide, 3>& of, const Framed& impulse, std::span<double> g) {
-    for (std::size_t k = 0; k < kWide; ++k)
-      g[k] -= part_of(of[0], k) * impulse[0] + part_of(of[1], k) * impulse[1] + part_of(of[2], k) * impulse[2];
+  const auto pull = [](const Directions& of, std::size_t brick, const Framed& impulse, std::span<double> g) {
+    for (std::size_t k = 0; k < kWide; ++k) {
+      const std::size_t at = beside(brick, k);
+      g[k] -= of[0][at] * impulse[0] + of[1][at] * impulse[1] + of[2][at] * impulse[2];
+    }
   };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ContactRow& row = rows[i];
     const RowPart& part = parts_[i];
     const Framed impulse{part.n - row.impulse[0], part.s - row.impulse[1], part.t - row.impulse[2]};
     const int a = order_->number(row.a), b = order_->number(row.b);
-    if (a >= 0) pull(row.of_a, impulse, six(out, a));
-    if (b >= 0) pull(row.of_b, impulse, six(out, b));
+    if (a >= 0) pull(row.of, 0, impulse, six(out, a));
+    if (b >= 0) pull(row.of, 1, impulse, six(out, b));
   }
 }
 
@@ -157,10 +166,10 @@ void NewtonSolver::assemble(std::span<const ContactRow> rows) {
     const ContactRow& row = rows[i];
     const RowPart& part = parts_[i];
     const int a = order_->number(row.a), b = order_->number(row.b);
-    if (a >= 0) add_stiffness(row.of_a, row.of_a, part.stiffness, matrix_.at(a, a));
-    if (b >= 0) add_stiffness(row.of_b, row.of_b, part.stiffness, matrix_.at(b, b));
-    if (a >= 0 && b >= 0 && a > b) add_stiffness(row.of_a, row.of_b, part.stiffness, matrix_.at(a, b));
-    if (a >= 0 && b >= 0 && b > a) add_stiffness(row.of_b, row.of_a, part.stiffness, matrix_.at(b, a));
+    if (a >= 0) add_stiffness(row.of, 0, 0, part.stiffness, matrix_.at(a, a));
+    if (b >= 0) add_stiffness(row.of, 1, 1, part.stiffness, matrix_.at(b, b));
+    if (a >= 0 && b >= 0 && a > b) add_stiffness(row.of, 0, 1, part.stiffness, matrix_.at(a, b));
+    if (a >= 0 && b >= 0 && b > a) add_stiffness(row.of, 1, 0, part.stiffness, matrix_.at(b, a));
   }
 }
 
@@ -241,7 +250,8 @@ bool NewtonSolver::improve(std::span<ContactRow> rows, std::span<Velocity> veloc
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ContactRow& row = rows[i];
     const RowPart& part = parts_[i];
-    apply(row, {part.n - row.impulse[0], part.s - row.impulse[1], part.t - row.impulse[2]}, velocity);
+    const Framed change{part.n - row.impulse[0], part.s - row.impulse[1], part.t - row.impulse[2]};
+    apply<2>(row, change.data(), velocity.front().data());
     row.impulse = {part.n, part.s, part.t};
   }
   return true;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "base/crew.h"
@@ -35,6 +36,7 @@ class RigidModel final : public Model {
     world_.step = step_;
     world_.every_brick_moves = config.every_brick_moves;
     world_.repeats = config.repeats;
+    world_.kernels = lane_kernels(config.lanes);
     world_.profile = config.profile;
     plan_pushes();
     if (config.every_brick_moves) wake_all();
@@ -341,6 +343,18 @@ double default_time_step(const Layout& layout) {
   return 0.06 * std::sqrt(longest / layout.gravity);
 }
 
+namespace {
+
+std::string no_such_lanes(int lanes) {
+  std::string allowed = "0 (as many as it has)";
+  for (const int some : {1, 2, 4}) {
+    if (lane_kernels(some) != nullptr) allowed += (some == 1 ? ", " : " or ") + std::to_string(some);
+  }
+  return "lanes: " + std::to_string(lanes) + " is not a number of lanes that this processor has; it must be " + allowed + ".";
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Model>> make_rigid_model(const Layout& layout, const RigidConfig& config) {
   const double most = 4.0 * default_time_step(layout);
   if (config.time_step > most) {
@@ -350,6 +364,7 @@ Result<std::unique_ptr<Model>> make_rigid_model(const Layout& layout, const Rigi
                   config.time_step, most);
     return failure(words.data());
   }
+  if (lane_kernels(config.lanes) == nullptr) return failure(no_such_lanes(config.lanes));
   return std::make_unique<RigidModel>(layout, config);
 }
 

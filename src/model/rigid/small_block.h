@@ -8,12 +8,6 @@
 
 namespace topple::rigid {
 
-/// Two numbers in one register; every operation has the bits that it has with one.
-using Two = double __attribute__((vector_size(16)));
-
-/// Six numbers of a brick, in lanes: along x, y, z, about x, y, z.
-using Wide = std::array<Two, 3>;
-
 template <int N>
 struct Block {
   std::array<double, std::size_t{N} * std::size_t{N}> m{};
@@ -28,14 +22,6 @@ struct Block {
 
 template <int N>
 using Column = std::array<double, static_cast<std::size_t>(N)>;
-
-inline Wide wide(const Column<6>& v) { return {Two{v[0], v[1]}, Two{v[2], v[3]}, Two{v[4], v[5]}}; }
-inline Column<6> narrow(const Wide& v) { return {v[0][0], v[0][1], v[1][0], v[1][1], v[2][0], v[2][1]}; }
-inline Two both(double value) { return Two{value, value}; }
-inline double product_of(const Wide& a, const Wide& b) {
-  const Two sum = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  return sum[0] + sum[1];
-}
 
 template <int N>
 inline Block<N> product(const Block<N>& a, const Block<N>& b) {

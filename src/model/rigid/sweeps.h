@@ -1,16 +1,17 @@
-/// The specification of the contact solver: scalar, double precision, one contact point after the other.
+/// The specification of the contact solver: one contact point after the other.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "model/rigid/contact_row.h"
+#include "model/rigid/lane_kernels.h"
 
 namespace topple::rigid {
 
 /// Projected Gauss-Seidel: every point in turn takes the impulse that the laws of contact ask for while all others keep theirs.
 class Sweeps {
  public:
+  explicit Sweeps(const LaneKernels& kernels) : kernels_(kernels) {}
   /// Velocities from those without contact and the impulses that the rows hold; these come pair by pair. In which order the points of a
   /// pair are taken does not depend on which hand they are at, so that the mirror image of a layout is solved as its mirror image.
   void begin(std::span<const ContactRow> rows, std::span<const Velocity> free);
@@ -26,7 +27,7 @@ class Sweeps {
   std::vector<Velocity> velocity;  ///< Of all bodies.
 
  private:
-  double first(std::span<ContactRow> rows);
+  const LaneKernels& kernels_;
   std::vector<int> order_;  // Of the rows; found in the first sweep.
   bool backwards_ = false;
 };

@@ -151,7 +151,7 @@ class Front final : public Wave {
   double planned_for_ = 0.0;  // The plan is good for a drift of this time [s]; 0: for none.
   EnergyLaw energy_law_;
   Touch before_;
-  ContactSolver solver_;
+  ContactSolver solver_{*world_.kernels};
 };
 
 }  // namespace topple::rigid

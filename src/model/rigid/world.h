@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/rigid/lane_kernels.h"
 #include "model/rigid/neighbours.h"
 #include "topple/model.h"
 #include "topple/profile.h"
@@ -75,6 +76,7 @@ struct World {
   bool balls = false;           ///< Some are balls.
   bool every_brick_moves = false;
   bool repeats = true;  ///< What an even row does again is not computed again.
+  const LaneKernels* kernels = lane_kernels(0);
   Profile* profile = nullptr;
 
   /// Where a brick may be in its front's list. Two fronts may take one brick in one step, before it is known whose it is; so a hint is

@@ -1,0 +1,31 @@
+/// The inner loops of the contact solver for 1, 2 and 4 numbers side by side: the same bits, chosen when a run begins.
+#pragma once
+
+#include <cstddef>
+
+#include "model/rigid/contact_row.h"
+#include "model/rigid/point_law.h"
+
+namespace topple::rigid {
+
+/// One entry a stage of a solution, so that what is chosen once is called seldom.
+struct LaneKernels {
+  int lanes = 0;
+  // SweepLanes.
+  void (*apply_all)(const ContactRow* rows, std::size_t count, double* velocity);
+  double (*first_sweep)(ContactRow* rows, int* order, std::size_t count, double* velocity);
+  double (*sweep)(ContactRow* rows, const int* order, std::size_t count, bool backwards, double* velocity);
+  double (*sweep_cones)(ContactRow* rows, std::size_t count, bool backwards, double* velocity);
+  // PointLanes.
+  void (*slips)(const ContactRow* rows, const PointEnds* ends, std::size_t count, const double* velocity, double* slip);
+  void (*add_law)(const ContactRow& row, const PointLaw& law, const PointEquations& to);
+  // CouplingLanes.
+  void (*couple)(ContactRow& row, const Body& a, const Body* b);
+  // BrickLanes.
+  bool (*solve)(BrickRow* rows, std::size_t count, BrickEntry* entries, const double* right, double* x);
+};
+
+/// For so many lanes, 0: as many as this processor has. Null if it has not so many, or there is no such number.
+const LaneKernels* lane_kernels(int lanes);
+
+}  // namespace topple::rigid
