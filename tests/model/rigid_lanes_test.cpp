@@ -191,7 +191,7 @@ void plain_put(Plain6& block, const std::array<Six, 3>& rows, const Vec3& arm, d
 
 TEST_CASE("rigid: slips and pushes have the same bits in any number of lanes") {
   for (const LaneKernels* kernels : all_lanes()) {
-    for (const std::size_t count : {1, 2, 3, 5, 7, 11}) {
+    for (const std::size_t count : std::initializer_list<std::size_t>{1, 2, 3, 5, 7, 11}) {
       Numbers numbers;
       const int bodies = 1 + static_cast<int>(count) / 2;
       const std::vector<ContactRow> rows = some_rows(count, bodies, numbers);
@@ -218,7 +218,7 @@ TEST_CASE("rigid: slips and pushes have the same bits in any number of lanes") {
 }
 
 TEST_CASE("rigid: sweeps have the same bits in any number of lanes") {
-  for (const std::size_t count : {1, 2, 3, 5, 9}) {
+  for (const std::size_t count : std::initializer_list<std::size_t>{1, 2, 3, 5, 9}) {
     Numbers numbers;
     const int bodies = 1 + static_cast<int>(count) / 2;
     const Swept start{some_rows(count, bodies, numbers), some_velocities(static_cast<std::size_t>(bodies), numbers), {}};
@@ -332,7 +332,7 @@ TEST_CASE("rigid: what a point adds to the equations has the same bits in any nu
 }
 
 TEST_CASE("rigid: the equations of bricks have one solution in any number of lanes, and it is one") {
-  for (const std::size_t count : {1, 2, 3, 5, 7}) {
+  for (const std::size_t count : std::initializer_list<std::size_t>{1, 2, 3, 5, 7}) {
     // A row in which every third brick touches the one before the last one too.
     Numbers numbers;
     std::vector<BrickRow> rows(count);

@@ -47,6 +47,7 @@ class Help(ProgramTest):
             ["run", layout, "--until", "nan"],
             ["run", layout, "--until", "soon"],
             ["run", layout, "--threads", "0"],
+            ["run", layout, "--lanes", "3"],
             ["run", layout, "--set", "height"],
             ["run", layout, "--set", "=1"],
             ["plot", layout],

@@ -37,6 +37,11 @@ class Run(ProgramTest):
         layout = self.write("row.toml", ROW)
         self.assertEqual(self.json_of(layout)["hash"], self.json_of(layout, "--threads", 3)["hash"])
 
+    def test_the_same_run_has_the_same_hash_with_any_number_of_lanes(self):
+        layout = self.write("row.toml", ROW)
+        hashes = {self.json_of(layout, "--model", "rigid", *lanes)["hash"] for lanes in ((), ("--lanes", 1), ("--lanes", 2))}
+        self.assertEqual(len(hashes), 1)
+
     def test_the_profile_names_the_stages_of_a_step(self):
         layout = self.write("row.toml", ROW)
         summary = self.json_of(layout, "--model", "rigid", "--profile")
