@@ -186,6 +186,7 @@ double tip_angle(const Extents& size);
 
 /// Where a brick stands as it was put down.
 Pose standing_pose(const Layout& layout, BrickId brick);
+Pose standing_pose(const BrickKind& kind, const Brick& put);
 
 /// The same brick turned by `angle` [rad] about its toe (angle > 0, the way it heads) or about its heel (angle < 0).
 Pose hinged_pose(const Layout& layout, BrickId brick, double angle);

@@ -127,7 +127,9 @@ class Model {
   virtual std::span<const Event> events() const = 0;  ///< Of the last step, in the order of their times.
   virtual std::span<const Contact> contacts()
       const = 0;                           ///< At the end of the last step, of what was computed in it; none where the model has no forces.
-  virtual std::uint64_t hash() const = 0;  ///< Chained over all steps: ids, poses, velocities.
+  /// Chained over all steps: ids, poses, velocities. Those of `rigid` are in the frame and the units of the run, so that one layout has
+  /// one hash wherever, however and however large it lies.
+  virtual std::uint64_t hash() const = 0;
 };
 
 // ---- Level 1: the report's model ----

@@ -63,8 +63,11 @@ double tip_angle(const Extents& size) { return arc_tangent(size.along, size.up);
 Vec3 half_extents(const BrickKind& kind) { return {kind.thickness / 2.0, kind.width / 2.0, kind.height / 2.0}; }
 
 Pose standing_pose(const Layout& layout, BrickId brick) {
-  const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
-  const Extents size = extents(layout.kind_of(brick), put.stance);
+  return standing_pose(layout.kind_of(brick), layout.bricks[static_cast<std::size_t>(brick)]);
+}
+
+Pose standing_pose(const BrickKind& kind, const Brick& put) {
+  const Extents size = extents(kind, put.stance);
   const SinCos half = sin_cos(put.heading / 2.0);
   const Quat heading{half.cos, 0.0, 0.0, half.sin};
   return {put.foot + Vec3{0.0, 0.0, size.up / 2.0}, heading * stance_turn(put.stance)};

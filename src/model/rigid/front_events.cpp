@@ -110,7 +110,7 @@ BrickId Front::supporter(int place) const {
 void Front::note_rest(int place, double now) {
   const Body& body = bodies_[static_cast<std::size_t>(place)];
   Member& member = members_[static_cast<std::size_t>(place)];
-  const Extents size = extents(world_.layout.kinds[body.kind], world_.layout.bricks[static_cast<std::size_t>(body.id)].stance);
+  const Extents size = extents(world_.kinds[body.kind], world_.given(body.id).stance);
   const bool fallen = member.tilt_cosine < std::cos(tip_angle(size));
   const BrickId by = supporter(place);
   if (fallen && !member.landed) {
@@ -136,10 +136,9 @@ void Front::keep_what_stays(Touch& touch) const {
 void Front::begin_push(const Push& push, double now) {
   const int place = place_of(push.brick);
   Body& body = bodies_[static_cast<std::size_t>(place)];
-  const Brick& brick = world_.layout.bricks[static_cast<std::size_t>(push.brick)];
-  const Extents size = extents(world_.layout.kinds[body.kind], brick.stance);
-  const Pose put_down = standing_pose(world_.layout, push.brick);
-  const SinCos turn = sin_cos(brick.heading);
+  const Extents size = extents(world_.kinds[body.kind], world_.given(push.brick).stance);
+  const Pose put_down = world_.standing(push.brick);
+  const SinCos turn = sin_cos(world_.heading(push.brick));
   const Vec3 heading{turn.cos, turn.sin, 0.0};
   const Quat back = conjugate(put_down.orientation);
   const double before = kinetic_energy(body);

@@ -448,7 +448,7 @@ bool Front::is_hit(const Touch& touch, std::size_t still) const {
   for (int k = 0; k < touch.now.count; ++k) {
     if (touch.memory[static_cast<std::size_t>(k)].fresh) return true;
   }
-  const double weight = world_.gravity * world_.layout.kinds[bodies_[still].kind].mass;
+  const double weight = world_.gravity * world_.kinds[bodies_[still].kind].mass;
   return !touch.bearing && touch.load > world_.tolerances.load * weight;
 }
 

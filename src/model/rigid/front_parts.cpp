@@ -98,17 +98,16 @@ BrickId Front::row_brick() const {
     if (body.round) return kNoBrick;
     if (first == kNoBrick) {
       first = body.id;
-      plane = plane_of_row(world_.layout, first);
+      plane = plane_of_row(world_, first);
     }
-    if (!put_down_in(plane, world_.layout, body.id)) return kNoBrick;
+    if (!put_down_in(plane, world_, body.id)) return kNoBrick;
     const double allowed = world_.tolerances.in_plane * members_[i].thin;
-    const PlanePose pose = in_plane(plane, world_.layout, body.id, {body.position, body.orientation});
+    const PlanePose pose = in_plane(plane, world_, body.id, {body.position, body.orientation});
     if (std::abs(pose.lateral) + body.radius * pose.swing > allowed) return kNoBrick;
     const double aside = std::abs(dot(body.velocity, plane.across)) +
                          body.radius * (std::abs(dot(body.angular_velocity, plane.along)) + std::abs(body.angular_velocity.z));
     if (world_.tolerances.horizon * members_[i].time_scale * aside > allowed) return kNoBrick;
-    half_width = std::max(
-        half_width, 0.5 * extents(world_.layout.kinds[body.kind], world_.layout.bricks[static_cast<std::size_t>(body.id)].stance).across);
+    half_width = std::max(half_width, 0.5 * extents(world_.kinds[body.kind], world_.given(body.id).stance).across);
   }
   // What does not move within its reach must lie in the plane too, or miss it.
   std::vector<BrickId> near;

@@ -234,7 +234,7 @@ void Front::kick(double time) {
 void Front::slow_ball(std::size_t place, double time) {
   Body& ball = bodies_[place];
   if (ball.position.z - ball.half.x > world_.tolerances.touching * members_[place].thin) return;
-  resist_rolling(ball, world_.layout.kinds[ball.kind].rolling_friction, world_.gravity, time);
+  resist_rolling(ball, world_.kinds[ball.kind].rolling_friction, world_.gravity, time);
 }
 
 // Bodies come with the velocities that they would have without contact.

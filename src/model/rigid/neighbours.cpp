@@ -14,16 +14,16 @@ double radius_of(const BrickKind& kind) {
 
 }  // namespace
 
-Neighbours::Neighbours(const Layout& layout) {
+Neighbours::Neighbours(const Layout& layout, const RunUnits& units) {
   double largest = 0.0;
-  for (const BrickKind& kind : layout.kinds) largest = std::max(largest, radius_of(kind));
+  for (const BrickKind& kind : layout.kinds) largest = std::max(largest, radius_of(units.kind(kind)));
   // Two radii, and half a radius more: a list of neighbours stays good while its brick moves a little.
   size_ = 2.5 * largest;
   const std::size_t count = layout.bricks.size();
   first_.assign(std::bit_ceil(std::max<std::size_t>(count, 16)), kNoBrick);
   next_.assign(count, kNoBrick);
   for (BrickId brick = layout.brick_count(); brick-- > 0;) {
-    const Vec3& foot = layout.bricks[static_cast<std::size_t>(brick)].foot;
+    const Vec3 foot = units.foot(layout.bricks[static_cast<std::size_t>(brick)]);
     BrickId& head = first_[bucket(cell(foot.x), cell(foot.y))];
     next_[static_cast<std::size_t>(brick)] = head;
     head = brick;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "topple/layout.h"
+#include "model/rigid/run_units.h"
 
 namespace topple::rigid {
 
@@ -12,7 +12,7 @@ namespace topple::rigid {
 /// around it. A brick is moved to another cell only when it leaves its own, so that those never touched cost nothing.
 class Neighbours {
  public:
-  explicit Neighbours(const Layout& layout);
+  Neighbours(const Layout& layout, const RunUnits& units);
 
   /// Ids of all bricks in the nine cells around a place, ascending; `out` is overwritten.
   void near(const Vec3& place, std::vector<BrickId>& out) const;
@@ -24,7 +24,7 @@ class Neighbours {
   std::size_t bucket(std::int64_t column, std::int64_t row) const;
   bool unlink(BrickId brick, std::size_t bucket);  // Whether it was there.
 
-  double size_ = 1.0;           // Of a cell [m].
+  double size_ = 1.0;           // Of a cell.
   std::vector<BrickId> first_;  // Per bucket; a list of bricks linked by next_.
   std::vector<BrickId> next_;
 };

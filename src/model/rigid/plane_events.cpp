@@ -136,7 +136,7 @@ void PlaneFront::keep_what_stays(PlaneTouch& touch, int place) const {
 void PlaneFront::begin_push(const Push& push, double now) {
   const int place = place_of(push.brick);
   PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
-  const SinCos turn = sin_cos(world_.layout.bricks[static_cast<std::size_t>(push.brick)].heading);
+  const SinCos turn = sin_cos(world_.heading(push.brick));
   const double way = turn.cos * plane_.along.x + turn.sin * plane_.along.y > 0.0 ? 1.0 : -1.0;
   const double along = brick.box.half_along, up = brick.box.half_up;
   const double before = kinetic_energy(brick, brick.velocity);

@@ -25,16 +25,15 @@ double displacement(const PlaneBrick& brick, const PlaneVec& from) {
 
 }  // namespace
 
-PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(world, number), plane_(plane_of_row(world.layout, first)) {}
+PlaneFront::PlaneFront(World& world, std::int32_t number, BrickId first) : Wave(world, number), plane_(plane_of_row(world, first)) {}
 
-// Where a brick was put down, from the one beside it if that is known. Far from the origin of the layout places are rounded; an even row
-// is even here.
+// Where a brick was put down, from the one beside it if that is known. Places are rounded; an even row is even here.
 double PlaneFront::stand_of(BrickId brick) {
-  const double along = stand_along(plane_, world_.layout, brick);
+  const double along = stand_along(plane_, world_, brick);
   for (const BrickId beside : {brick - 1, brick + 1}) {
     const int place = beside < world_.layout.brick_count() ? place_of(beside) : -1;
     if (place < 0) continue;
-    const double apart = along - stand_along(plane_, world_.layout, beside), pitch = std::abs(apart);
+    const double apart = along - stand_along(plane_, world_, beside), pitch = std::abs(apart);
     if (std::abs(pitch - pitch_) > kSamePitch) pitch_ = pitch;
     return bricks_[static_cast<std::size_t>(place)].stand + (apart > 0.0 ? pitch_ : -pitch_);
   }
@@ -44,7 +43,7 @@ double PlaneFront::stand_of(BrickId brick) {
 // From here on places along the row are against where this brick was put down.
 void PlaneFront::count_from(const PlaneBrick& brick) {
   const double shift = brick.stand;
-  origin_ = stand_along(plane_, world_.layout, brick.id);
+  origin_ = stand_along(plane_, world_, brick.id);
   for (PlaneBrick& other : bricks_) {
     for (double* x : {&other.box.place.x, &other.next.place.x, &other.listed_at.x, &other.stand}) *x -= shift;
   }
@@ -79,7 +78,7 @@ SinCos PlaneFront::half_turn(const PlaneBox& box) {
 Pose PlaneFront::pose_of(const PlaneBrick& brick) const {
   const SinCos half = half_turn(brick.box);
   const Quat turn{half.cos, half.sin * plane_.across.x, half.sin * plane_.across.y, 0.0};
-  const Vec3& foot = world_.layout.bricks[static_cast<std::size_t>(brick.id)].foot;
+  const Vec3 foot = world_.foot(brick.id);
   const double moved = brick.box.place.x - brick.stand;
   const Vec3 place = {foot.x + (moved * plane_.along.x + brick.aside * plane_.across.x),
                       foot.y + (moved * plane_.along.y + brick.aside * plane_.across.y), brick.box.place.z};
@@ -102,9 +101,8 @@ bool PlaneFront::rests(BrickId brick) const {
 InPlane PlaneFront::locate(BrickId brick) const { return locate_in(plane_, world_, brick, last_pose(brick), rests(brick), half_width_); }
 
 int PlaneFront::add(BrickId brick, const PlaneVec& moved) {
-  const auto at = static_cast<std::size_t>(brick);
-  const Brick& put = world_.layout.bricks[at];
-  const BrickKind& kind = world_.layout.kinds[put.kind];
+  const Brick& put = world_.given(brick);
+  const BrickKind& kind = world_.kinds[put.kind];
   const Extents size = extents(kind, put.stance);
   PlaneBrick added;
   added.stand = stand_of(brick);
@@ -121,11 +119,11 @@ int PlaneFront::add(BrickId brick, const PlaneVec& moved) {
   added.radius = 0.5 * std::sqrt(size.along * size.along + size.up * size.up);
   added.thin = std::min({kind.height, kind.width, kind.thickness});
   added.time_scale = std::sqrt(std::max({kind.height, kind.width, kind.thickness}) / world_.gravity);
-  added.upright = standing_pose(world_.layout, brick).orientation;
+  added.upright = world_.standing(brick).orientation;
   const Pose& pose = last_pose(brick);
-  added.aside = dot(pose.position - put.foot, plane_.across);
+  added.aside = dot(pose.position - world_.foot(brick), plane_.across);
   // One that came to rest a little out of the plane stays so.
-  if (rests(brick)) added.upright = in_plane(plane_, world_.layout, brick, pose).upright;
+  if (rests(brick)) added.upright = in_plane(plane_, world_, brick, pose).upright;
   added.id = brick;
   added.kind = put.kind;
   half_width_ = std::max(half_width_, 0.5 * size.across);
@@ -140,7 +138,7 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
   interrupt();
   int place = place_of(brick);
   if (place < 0) {
-    leaves_plane_ = leaves_plane_ || !put_down_in(plane_, world_.layout, brick);
+    leaves_plane_ = leaves_plane_ || !put_down_in(plane_, world_, brick);
     place = add(brick, locate(brick).place);
   }
   if (bricks_[static_cast<std::size_t>(place)].moving) return;
@@ -174,7 +172,7 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
 // How a brick stands on the floor, with the points within so many thicknesses of it.
 PlaneTouch PlaneFront::on_floor(int place, double within) const {
   const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
-  const Surface& surface = world_.layout.kinds[brick.kind].surface;
+  const Surface& surface = world_.kinds[brick.kind].surface;
   PlaneTouch floor;
   floor.a = place;
   floor.thin = brick.thin;
@@ -202,7 +200,7 @@ void PlaneFront::mark_borne_by(int place) {
 void PlaneFront::list_neighbours(int place) {
   const Timed timed(world_.profile, Stage::plane_lists);
   const BrickId id = bricks_[static_cast<std::size_t>(place)].id;
-  const double radius = 0.5 * norm(2.0 * half_extents(world_.layout.kind_of(id)));
+  const double radius = 0.5 * norm(2.0 * half_extents(world_.kind_of(id)));
   bricks_[static_cast<std::size_t>(place)].listed_at = bricks_[static_cast<std::size_t>(place)].box.place;
   const PlaneVec here = bricks_[static_cast<std::size_t>(place)].box.place;
   const Vec3 centre = in_world(here.x, here.z);
@@ -214,7 +212,7 @@ void PlaneFront::list_neighbours(int place) {
       // One that this front has left in this step is nobody's.
       const std::int32_t owner = world_.front[static_cast<std::size_t>(other)], front = owner == number_ ? kNoFront : owner;
       // Of a brick of another front only the place where that front listed it is known.
-      const double reach = (front == kNoFront ? 1.5 : 1.6) * radius + norm(half_extents(world_.layout.kind_of(other)));
+      const double reach = (front == kNoFront ? 1.5 : 1.6) * radius + norm(half_extents(world_.kind_of(other)));
       const Vec3 apart = last_pose(other).position - centre;
       if (dot(apart, apart) > reach * reach) continue;
       const InPlane found = locate(other);

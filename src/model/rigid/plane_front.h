@@ -94,6 +94,7 @@ class PlaneFront final : public Wave {
   bool repeat_to(double moment);
   void tell_end(const PlaneCycle::Drift& drift);
   void repeat_strike();
+  bool goes_on_to(BrickId brick) const;
   bool next_is_alike();
   void end_repeat();
   void break_off();
@@ -196,6 +197,7 @@ class PlaneFront final : public Wave {
   PlaneCycle cycle_;         // and all since then.
   BrickId way_ = 0;          // From a brick's number to that of the next to be struck: 1 or -1.
   double even_pitch_ = 0.0;  // [m]
+  BrickId even_to_ = 0;      // The row is known to go on evenly to this brick.
   int even_ = 0;             // So many strikes in turn were of an even row.
   struct Repeat {
     bool on = false;

@@ -6,11 +6,11 @@ namespace topple::rigid {
 // Bricks that moved freely go on in the plane; what they have left it by stays as it is.
 void PlaneFront::adopt(std::span<const HandedBrick> bricks) {
   for (const HandedBrick& handed : bricks) {
-    const PlanePose apart = in_plane(plane_, world_.layout, handed.brick, handed.pose);
+    const PlanePose apart = in_plane(plane_, world_, handed.brick, handed.pose);
     const int place = add(handed.brick, apart.place);
     PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
     brick.upright = apart.upright;
-    brick.aside = dot(handed.pose.position - world_.layout.bricks[static_cast<std::size_t>(handed.brick)].foot, plane_.across);
+    brick.aside = dot(handed.pose.position - world_.foot(handed.brick), plane_.across);
     brick.velocity = {dot(handed.velocity, plane_.along), handed.velocity.z, dot(handed.angular_velocity, plane_.across)};
     brick.velocity_before = brick.velocity;
     brick.listed_at = brick.box.place;

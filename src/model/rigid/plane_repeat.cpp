@@ -81,6 +81,7 @@ void PlaneFront::after_strike() {
   even_ = single && is_even(struck) ? even_ + 1 : 0;
   if (even_ > 1 && cycle_.whole && is_as_kept()) {
     take_kept(struck.brick);
+    even_to_ = struck.brick;
     if (world_.repeats && next_is_alike()) begin_repeat();
   } else if (even_ > 0) {
     kept_.all() = state();
@@ -104,7 +105,7 @@ bool PlaneFront::is_even(const Struck& struck) {
 
 bool PlaneFront::is_as_kept() const {
   const BrickId apart = last_struck_ - kept_.last_struck;
-  const BrickKind& kind = world_.layout.kind_of(last_struck_);
+  const BrickKind& kind = world_.kind_of(last_struck_);
   const Grain grain(std::max({kind.height, kind.width, kind.thickness}), kind.mass, world_.gravity);
   if (apart != way_ || bricks_.size() != kept_.bricks.size() || touches_.size() != kept_.touches.size()) return false;
   for (std::size_t i = bricks_.size(); i-- > 0;) {
@@ -252,7 +253,7 @@ void PlaneFront::tell_end(const PlaneCycle::Drift& drift) {
 
 void PlaneFront::repeat_strike() {
   last_struck_ += way_;
-  origin_ = stand_along(plane_, world_.layout, last_struck_);
+  origin_ = stand_along(plane_, world_, last_struck_);
   for (std::size_t i = 0; i < bricks_.size(); ++i) {
     bricks_[i].id += way_;
     world_.note_place(bricks_[i].id, static_cast<int>(i));
@@ -262,26 +263,32 @@ void PlaneFront::repeat_strike() {
   if (!next_is_alike()) end_repeat();
 }
 
+// Whether a brick was put down as the one before it, in the plane, and as far away as all are.
+bool PlaneFront::goes_on_to(BrickId brick) const {
+  const BrickId before = brick - way_;
+  const Brick &put = world_.given(brick), &like = world_.given(before);
+  if (put.kind != like.kind || put.stance != like.stance || world_.heading(brick) != world_.heading(before)) return false;
+  if (!put_down_in(plane_, world_, brick)) return false;
+  return std::abs(std::abs(stand_along(plane_, world_, brick) - stand_along(plane_, world_, before)) - pitch_) <= kSamePitch;
+}
+
 // Whether the row goes on evenly beyond the bricks that the front reaches until the next strike, and nothing else stands there.
 bool PlaneFront::next_is_alike() {
   int farthest = 1;
   for (std::size_t i = 0; i < cycle_.count; ++i) {
     for (const int brick : cycle_.drifts[i].taken) farthest = std::max(farthest, way_ * brick);
   }
-  const std::vector<Brick>& bricks = world_.layout.bricks;
-  const Brick& like = bricks[static_cast<std::size_t>(last_struck_)];
   const Part* part = world_.layout.part_of(last_struck_);
   const int beyond = farthest + 3;  // Another wave may come this way meanwhile.
   for (int i = 1; i <= beyond; ++i) {
     const BrickId next = last_struck_ + way_ * i;
     if (next < 0 || next >= world_.layout.brick_count() || world_.layout.part_of(next) != part) return false;
     const auto at = static_cast<std::size_t>(next);
-    const Brick& brick = bricks[at];
-    if (brick.kind != like.kind || brick.heading != like.heading || brick.stance != like.stance) return false;
     if (world_.phase[at] != Phase::standing || (world_.front[at] != kNoFront && world_.front[at] != number_)) return false;
-    if (world_.arrived[at] != 0 || !put_down_in(plane_, world_.layout, next)) return false;
-    const double pitch = std::abs(stand_along(plane_, world_.layout, next) - stand_along(plane_, world_.layout, next - way_));
-    if (std::abs(pitch - pitch_) > kSamePitch) return false;
+    if (world_.arrived[at] != 0) return false;
+    if (way_ * (next - even_to_) <= 0) continue;
+    if (!goes_on_to(next)) return false;
+    even_to_ = next;
   }
   const BrickId last = last_struck_ + way_ * beyond;
   const Vec3 centre = world_.pose[static_cast<std::size_t>(last)].position;
@@ -292,7 +299,7 @@ bool PlaneFront::next_is_alike() {
     if (ahead <= beyond && ahead >= -static_cast<int>(bricks_.size())) return true;
     if (world_.layout.part_of(other) == part && world_.front[static_cast<std::size_t>(other)] == kNoFront && ahead > 0) return true;
     const Vec3 apart = world_.pose[static_cast<std::size_t>(other)].position - centre;
-    const double far = reach + norm(half_extents(world_.layout.kind_of(other)));
+    const double far = reach + norm(half_extents(world_.kind_of(other)));
     return dot(apart, apart) > far * far || locate(other).misses;
   });
 }

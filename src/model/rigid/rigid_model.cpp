@@ -31,7 +31,9 @@ class RigidModel final : public Model {
  public:
   RigidModel(const Layout& layout, const RigidConfig& config)
       : world_(layout),
-        step_(config.time_step > 0.0 ? config.time_step : default_time_step(layout)),
+        seconds_(config.time_step > 0.0 ? config.time_step : default_time_step(layout)),
+        step_(world_.units.time(seconds_)),
+        clock_(seconds_ / step_),
         crew_(config.crew != nullptr ? *config.crew : alone_) {
     world_.step = step_;
     world_.every_brick_moves = config.every_brick_moves;
@@ -44,7 +46,7 @@ class RigidModel final : public Model {
 
   Status step() override;
   std::int64_t step_count() const override { return count_; }
-  double time_step() const override { return step_; }
+  double time_step() const override { return seconds_; }
   void read(Frame& out) const override;
   std::span<const Event> events() const override { return events_; }
   std::span<const Contact> contacts() const override;
@@ -68,8 +70,14 @@ class RigidModel final : public Model {
   void gather();
   Status check() const;
 
+  // From the run to the world.
+  void tell(Event& event) const;
+  void tell(UnseenMotion& unseen) const;
+
   World world_;
-  double step_ = 0.0;
+  double seconds_ = 0.0;  // A step in the world [s],
+  double step_ = 0.0;     // and in the run;
+  double clock_ = 1.0;    // the one over the other.
   std::int64_t count_ = 0;
   std::vector<PushMoment> moments_;  // All of the run, in the order of time.
   std::size_t next_moment_ = 0;
@@ -89,7 +97,7 @@ class RigidModel final : public Model {
 };
 
 void RigidModel::plan_pushes() {
-  for (const Push& push : world_.layout.pushes) {
+  for (const Push& push : world_.pushes) {
     moments_.push_back({push.at, &push, push.brick});
     if (const auto* force = std::get_if<ForcePush>(&push.how)) moments_.push_back({push.at + force->duration, nullptr, push.brick});
   }
@@ -115,7 +123,7 @@ Wave& RigidModel::front_of(BrickId brick) {
   const std::int32_t number = world_.front[static_cast<std::size_t>(brick)];
   if (number != kNoFront) return *fronts_[static_cast<std::size_t>(number)];
   const std::size_t at = free_number();
-  if (!put_down_in(plane_of_row(world_.layout, brick), world_.layout, brick)) {
+  if (!put_down_in(plane_of_row(world_, brick), world_, brick)) {
     fronts_[at] = std::make_unique<Front>(world_, static_cast<std::int32_t>(at));
   } else {
     fronts_[at] = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(at), brick);
@@ -284,6 +292,24 @@ void RigidModel::gather() {
   }
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& l, const Event& r) { return l.time != r.time ? l.time < r.time : l.brick < r.brick; });
+  for (Event& event : events_) tell(event);
+  for (Echo& echo : echoes_) {
+    echo.start = clock_ * echo.start;
+    echo.like_start = clock_ * echo.like_start;
+  }
+  for (UnseenMotion& unseen : unseen_) tell(unseen);
+}
+
+void RigidModel::tell(Event& event) const {
+  event.time = clock_ * event.time;
+  event.force = world_.units.force(event.force);
+  event.impulse = world_.units.impulse(event.impulse);
+  event.point = world_.units.place(event.point);
+}
+
+void RigidModel::tell(UnseenMotion& unseen) const {
+  unseen.time = clock_ * unseen.time;
+  world_.units.tell({&unseen.motion, 1}, world_.layout.bricks);
 }
 
 Status RigidModel::check() const {
@@ -297,7 +323,7 @@ Status RigidModel::check() const {
 }
 
 void RigidModel::read(Frame& out) const {
-  out.time = static_cast<double>(count_) * step_;
+  out.time = static_cast<double>(count_) * seconds_;
   out.hinged.clear();
   out.kinks.clear();
   out.echoes = echoes_;
@@ -313,20 +339,29 @@ void RigidModel::read(Frame& out) const {
   out.free.resize(count);
   crew_.each(turns_.size(), [&](std::size_t i) {
     Turn& turn = turns_[i];
-    turn.front->read(std::span(out.free).subspan(turn.first, turn.count), out.energy_wanted ? &turn.energy : nullptr);
+    const std::span motions = std::span(out.free).subspan(turn.first, turn.count);
+    turn.front->read(motions, out.energy_wanted ? &turn.energy : nullptr);
+    world_.units.tell(motions, world_.layout.bricks);
   });
   if (out.last) {
+    const std::size_t told = out.unseen.size();
     for (const Turn& turn : turns_) turn.front->tell_unseen(out.unseen);
+    for (UnseenMotion& unseen : std::span(out.unseen).subspan(told)) tell(unseen);
   }
   for (const Turn& turn : turns_) {
     out.energy.kinetic += turn.energy.kinetic;
     out.energy.potential += turn.energy.potential;
   }
+  for (double* part : {&out.energy.kinetic, &out.energy.potential, &out.energy.push_work}) *part = world_.units.energy(*part);
 }
 
 std::span<const Contact> RigidModel::contacts() const {
   contacts_.clear();
   for (const Turn& turn : turns_) turn.front->read(contacts_);
+  for (Contact& contact : contacts_) {
+    contact.point = world_.units.place(contact.point);
+    contact.force = world_.units.force(contact.force);
+  }
   return contacts_;
 }
 

@@ -14,37 +14,34 @@ constexpr double kInPlane = 1e-7;
 
 double thinnest(const BrickKind& kind) { return std::min({kind.height, kind.width, kind.thickness}); }
 
-bool heads_along(const RowPlane& plane, const Brick& brick) {
-  const SinCos heading = sin_cos(brick.heading);
+bool heads_along(const RowPlane& plane, double direction) {
+  const SinCos heading = sin_cos(direction);
   return std::abs(heading.sin * plane.along.x - heading.cos * plane.along.y) < kInPlane;
 }
 
 }  // namespace
 
-RowPlane plane_of_row(const Layout& layout, BrickId brick) {
-  const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
-  const SinCos turn = sin_cos(put.heading);
-  return {put.foot, {turn.cos, turn.sin, 0.0}, {-turn.sin, turn.cos, 0.0}};
+RowPlane plane_of_row(const World& world, BrickId brick) {
+  const SinCos turn = sin_cos(world.heading(brick));
+  return {world.foot(brick), {turn.cos, turn.sin, 0.0}, {-turn.sin, turn.cos, 0.0}};
 }
 
-bool put_down_in(const RowPlane& plane, const Layout& layout, BrickId brick) {
-  const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
-  const BrickKind& kind = layout.kinds[put.kind];
-  return kind.shape == Shape::box && put.foot.z <= 0.0 && heads_along(plane, put) &&
-         std::abs(dot(put.foot - plane.origin, plane.across)) < kInPlane * thinnest(kind);
+bool put_down_in(const RowPlane& plane, const World& world, BrickId brick) {
+  const BrickKind& kind = world.kind_of(brick);
+  const Vec3 foot = world.foot(brick);
+  return kind.shape == Shape::box && foot.z <= 0.0 && heads_along(plane, world.heading(brick)) &&
+         std::abs(dot(foot - plane.origin, plane.across)) < kInPlane * thinnest(kind);
 }
 
-double stand_along(const RowPlane& plane, const Layout& layout, BrickId brick) {
-  return dot(layout.bricks[static_cast<std::size_t>(brick)].foot - plane.origin, plane.along);
-}
+double stand_along(const RowPlane& plane, const World& world, BrickId brick) { return dot(world.foot(brick) - plane.origin, plane.along); }
 
-PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, const Pose& pose) {
-  const Quat turned = pose.orientation * conjugate(standing_pose(layout, brick).orientation);
+PlanePose in_plane(const RowPlane& plane, const World& world, BrickId brick, const Pose& pose) {
+  const Quat turned = pose.orientation * conjugate(world.standing(brick).orientation);
   const double about = turned.x * plane.across.x + turned.y * plane.across.y;
   const double roll = turned.x * plane.along.x + turned.y * plane.along.y;
   const Vec3 apart = pose.position - plane.origin;
   PlanePose out;
-  const Vec3 moved = pose.position - layout.bricks[static_cast<std::size_t>(brick)].foot;
+  const Vec3 moved = pose.position - world.foot(brick);
   out.place = {dot(moved, plane.along), pose.position.z, 2.0 * arc_tangent(turned.w < 0.0 ? -about : about, std::abs(turned.w))};
   out.lateral = dot(apart, plane.across);
   const SinCos half = sin_cos(0.5 * out.place.turn);
@@ -54,11 +51,10 @@ PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, c
 }
 
 InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, const Pose& pose, bool rests, double half_width) {
-  const Brick& put = world.layout.bricks[static_cast<std::size_t>(brick)];
-  const BrickKind& kind = world.layout.kinds[put.kind];
-  const PlanePose apart = in_plane(plane, world.layout, brick, pose);
+  const BrickKind& kind = world.kind_of(brick);
+  const PlanePose apart = in_plane(plane, world, brick, pose);
   const double thin = thinnest(kind);
-  const bool fits = kind.shape == Shape::box && put.foot.z <= 0.0 && heads_along(plane, put);
+  const bool fits = kind.shape == Shape::box && world.given(brick).foot.z <= 0.0 && heads_along(plane, world.heading(brick));
   InPlane out;
   out.lies = fits && std::abs(apart.lateral) < kInPlane * thin && apart.swing < kInPlane;
   if (fits && rests) {

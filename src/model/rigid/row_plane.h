@@ -14,16 +14,16 @@ struct RowPlane {
 };
 
 /// The plane in which a brick would fall.
-RowPlane plane_of_row(const Layout& layout, BrickId brick);
+RowPlane plane_of_row(const World& world, BrickId brick);
 
 /// Whether a brick was put down in this plane: a box on the floor, across it.
-bool put_down_in(const RowPlane& plane, const Layout& layout, BrickId brick);
+bool put_down_in(const RowPlane& plane, const World& world, BrickId brick);
 
-/// Pitches that differ by less are the same: rounding of places [m].
-inline constexpr double kSamePitch = 1e-9;
+/// Pitches that differ by less are the same: rounding of places, to 2^-28 each way.
+inline constexpr double kSamePitch = 2e-8;
 
 /// How far along the plane a brick was put down [m].
-double stand_along(const RowPlane& plane, const Layout& layout, BrickId brick);
+double stand_along(const RowPlane& plane, const World& world, BrickId brick);
 
 /// A pose taken apart: where it is in the plane, along it against where it was put down, and what is left.
 struct PlanePose {
@@ -32,7 +32,7 @@ struct PlanePose {
   Quat upright;          ///< The orientation without the turn in the plane.
   double swing = 0.0;    ///< How far `upright` is turned away from the brick as put down [rad].
 };
-PlanePose in_plane(const RowPlane& plane, const Layout& layout, BrickId brick, const Pose& pose);
+PlanePose in_plane(const RowPlane& plane, const World& world, BrickId brick, const Pose& pose);
 
 /// Where a brick that does not move is in a plane.
 struct InPlane {

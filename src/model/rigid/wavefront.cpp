@@ -77,14 +77,14 @@ void Front::disband() {
 int Front::add(BrickId brick) {
   const auto at = static_cast<std::size_t>(brick);
   const int place = static_cast<int>(bodies_.size());
-  const std::uint16_t kind = world_.layout.bricks[at].kind;
-  Body body = make_body(world_.layout.kinds[kind], brick, kind, world_.pose[at]);
+  const std::uint16_t kind = world_.given(brick).kind;
+  Body body = make_body(world_.kinds[kind], brick, kind, world_.pose[at]);
   body.inverse_mass = 0.0;
   body.inverse_inertia = Mat3{};
   Member member;
   member.thin = thinnest(body);
   member.time_scale = std::sqrt(longest(body) / world_.gravity);
-  const Quat put_down = standing_pose(world_.layout, brick).orientation;
+  const Quat put_down = world_.standing(brick).orientation;
   member.local_up = rotate(conjugate(put_down), Vec3{0.0, 0.0, 1.0});
   ledger_.take(brick);
   world_.note_place(brick, place);
@@ -96,7 +96,7 @@ int Front::add(BrickId brick) {
 void Front::set_moving(int place) {
   Body& body = bodies_[static_cast<std::size_t>(place)];
   Member& member = members_[static_cast<std::size_t>(place)];
-  body.inverse_mass = 1.0 / world_.layout.kinds[body.kind].mass;
+  body.inverse_mass = 1.0 / world_.kinds[body.kind].mass;
   refresh(body);
   member.moving = true;
   member.quiet = 0.0;
@@ -110,7 +110,7 @@ void Front::set_moving(int place) {
   ++moving_;
   Touch floor;
   floor.a = place;
-  const Surface& surface = world_.layout.kinds[body.kind].surface;
+  const Surface& surface = world_.kinds[body.kind].surface;
   floor.friction = surface.floor_friction;
   floor.restitution = surface.floor_restitution;
   find_now(floor);  // A brick that has just begun to move stands on what it stood on.
@@ -182,7 +182,7 @@ void Front::list_neighbours(int place) {
     const auto at = static_cast<std::size_t>(other);
     const bool known = there >= 0;
     const Vec3 position = known ? bodies_[static_cast<std::size_t>(there)].position : world_.pose[at].position;
-    const Vec3 size = half_extents(world_.layout.kind_of(other));
+    const Vec3 size = half_extents(world_.kind_of(other));
     const bool foreign = !known && world_.front[at] != kNoFront && world_.front[at] != number_;
     const double reach = body.radius + norm(size) + (foreign ? kForeignSlack : kOwnSlack) * body.radius;
     const Vec3 apart = position - body.position;
@@ -199,7 +199,7 @@ void Front::list_neighbours(int place) {
     Touch touch;
     touch.a = a;
     touch.b = b;
-    const SurfacePair surfaces = surface_pair(world_.layout, body.kind, world_.layout.bricks[at].kind);
+    const SurfacePair surfaces = surface_pair(world_.layout, body.kind, world_.given(other).kind);
     touch.friction = surfaces.friction;
     touch.restitution = surfaces.restitution;
     find_now(touch);

@@ -1,23 +1,26 @@
 #include "model/rigid/world.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace topple::rigid {
 
-World::World(const Layout& source) : layout(source), neighbours(source), gravity(source.gravity) {
+World::World(const Layout& source) : layout(source), units(source), neighbours(source, units) {
   const std::size_t count = source.bricks.size();
   phase.assign(count, Phase::standing);
   arrived.assign(count, 0);
   front.assign(count, kNoFront);
   place.assign(count, 0);
-  smallest = std::numeric_limits<double>::infinity();
-  for (const BrickKind& kind : source.kinds) smallest = std::min(smallest, std::max({kind.height, kind.width, kind.thickness}));
+  for (const BrickKind& kind : source.kinds) kinds.push_back(units.kind(kind));
+  for (const Push& push : source.pushes) pushes.push_back(units.push(push));
   stacked = std::any_of(source.bricks.begin(), source.bricks.end(), [](const Brick& brick) { return brick.foot.z > 0.0; });
   balls = std::any_of(source.kinds.begin(), source.kinds.end(), [](const BrickKind& kind) { return kind.shape == Shape::ball; });
   pose.reserve(count);
-  for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing_pose(source, brick));
+  for (BrickId brick = 0; brick < source.brick_count(); ++brick) pose.push_back(standing(brick));
+}
+
+Pose World::standing(BrickId brick) const {
+  const Brick& put = given(brick);
+  return standing_pose(kinds[put.kind], units.put_down(put));
 }
 
 void Ledger::take(BrickId brick) {
@@ -55,9 +58,8 @@ void World::enter(Ledger& ledger) {
 }
 
 double potential_energy(const World& world, BrickId brick, double height) {
-  const Brick& put = world.layout.bricks[static_cast<std::size_t>(brick)];
-  const BrickKind& kind = world.layout.kinds[put.kind];
-  return world.gravity * kind.mass * (height - put.foot.z - 0.5 * extents(kind, put.stance).up);
+  const BrickKind& kind = world.kind_of(brick);
+  return world.gravity * kind.mass * (height - world.foot(brick).z - 0.5 * extents(kind, world.given(brick).stance).up);
 }
 
 BrickId next_of_part(const Layout& layout, BrickId brick) {

@@ -7,6 +7,7 @@
 
 #include "model/rigid/lane_kernels.h"
 #include "model/rigid/neighbours.h"
+#include "model/rigid/run_units.h"
 #include "topple/model.h"
 #include "topple/profile.h"
 
@@ -30,7 +31,7 @@ struct Ledger {
   std::vector<BrickId> woken;
   std::vector<Rest> rested;
   std::vector<Move> moves;  ///< From cell to cell of the neighbours.
-  double push_work = 0.0;   ///< [J]
+  double push_work = 0.0;
 
   void take(BrickId brick);
   void leave(BrickId brick);
@@ -59,25 +60,35 @@ struct Tolerances {
 struct World {
   explicit World(const Layout& source);
 
-  const Layout& layout;
+  const Layout& layout;  ///< For what has neither place nor unit: parts, surfaces, counts.
+  RunUnits units;        ///< In which all that follows is.
+  std::vector<BrickKind> kinds;
+  std::vector<Push> pushes;
   Neighbours neighbours;
   std::vector<Phase> phase;
   std::vector<Pose> pose;             ///< Of each brick that does not move; of one that does, the place where it was listed last.
   std::vector<std::uint8_t> arrived;  ///< Whether the wave has been there.
   std::vector<std::int32_t> front;    ///< The front that a brick belongs to, moving or in its way.
   std::vector<std::int32_t> place;    ///< In the list of that front, as a hint: see note_place().
-  double gravity = 9.81;              ///< [m/s^2]
-  double step = 0.0;                  ///< [s]
-  double smallest = 0.0;              ///< Longest side of the smallest brick [m].
+  double gravity = 1.0;
+  double smallest = 1.0;  ///< Longest side of the smallest brick.
+  double step = 0.0;
   Tolerances tolerances;
-  double resting_energy = 0.0;  ///< Potential, of bricks that rest [J].
-  double push_work = 0.0;       ///< [J]
-  bool stacked = false;         ///< Some bricks stand on others.
-  bool balls = false;           ///< Some are balls.
+  double resting_energy = 0.0;  ///< Potential, of bricks that rest.
+  double push_work = 0.0;
+  bool stacked = false;  ///< Some bricks stand on others.
+  bool balls = false;    ///< Some are balls.
   bool every_brick_moves = false;
   bool repeats = true;  ///< What an even row does again is not computed again.
   const LaneKernels* kernels = lane_kernels(0);
   Profile* profile = nullptr;
+
+  /// As the layout has it, in the world.
+  const Brick& given(BrickId brick) const { return layout.bricks[static_cast<std::size_t>(brick)]; }
+  const BrickKind& kind_of(BrickId brick) const { return kinds[given(brick).kind]; }
+  Vec3 foot(BrickId brick) const { return units.foot(given(brick)); }
+  double heading(BrickId brick) const { return units.heading(given(brick)); }
+  Pose standing(BrickId brick) const;  ///< As it was put down.
 
   /// Where a brick may be in its front's list. Two fronts may take one brick in one step, before it is known whose it is; so a hint is
   /// believed only where the list agrees with it.
@@ -92,7 +103,7 @@ struct World {
   void enter(Ledger& ledger);
 };
 
-/// Potential energy of a brick against how it was put down [J].
+/// Potential energy of a brick against how it was put down.
 double potential_energy(const World& world, BrickId brick, double height);
 
 /// The brick that should fall after this one, in its part of the layout, or none.
