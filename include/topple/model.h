@@ -126,7 +126,7 @@ class Model {
   virtual void read(Frame& out) const = 0;            ///< What moved in the last step, and the energy.
   virtual std::span<const Event> events() const = 0;  ///< Of the last step, in the order of their times.
   virtual std::span<const Contact> contacts()
-      const = 0;                           ///< At the end of the last step, of what was computed in it; none where the model has no forces.
+      const = 0;  ///< At the end of the last step, of what was computed in it; none where the model has no forces.
   /// Chained over all steps: ids, poses, velocities. Those of `rigid` are in the frame and the units of the run, so that one layout has
   /// one hash wherever, however and however large it lies.
   virtual std::uint64_t hash() const = 0;
