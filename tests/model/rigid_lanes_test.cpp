@@ -4,46 +4,18 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
-#include "model/rigid/lane_kernels.h"
+#include "model/lanes.h"
 #include "topple/run.h"
 
 namespace topple::rigid {
 namespace {
 
-std::vector<const LaneKernels*> all_lanes() {
-  std::vector<const LaneKernels*> all;
-  for (const int lanes : {1, 2, 4}) {
-    if (const LaneKernels* kernels = lane_kernels(lanes)) all.push_back(kernels);
-  }
-  return all;
-}
-
-// Numbers from -1 to 1 with all their bits, always the same ones.
-class Numbers {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
-    return 2.0 * (static_cast<double>(state_ >> 11) / 9007199254740992.0) - 1.0;
-  }
-  Vec3 vector() { return {next(), next(), next()}; }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
 using Six = std::array<double, 6>;
-
-bool same(const double* a, const double* b, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (std::bit_cast<std::uint64_t>(a[i]) != std::bit_cast<std::uint64_t>(b[i])) return false;
-  }
-  return true;
-}
 
 // Rows between any two of `bodies` bodies; every third one is between a body and the floor.
 std::vector<ContactRow> some_rows(std::size_t count, int bodies, Numbers& numbers) {
@@ -145,9 +117,9 @@ struct Swept {
 };
 
 bool same(const Swept& a, const Swept& b) {
-  bool all = same(a.changes.data(), b.changes.data(), a.changes.size());
-  for (std::size_t i = 0; i < a.rows.size(); ++i) all = all && same(a.rows[i].impulse.data(), b.rows[i].impulse.data(), 3);
-  for (std::size_t i = 0; i < a.velocity.size(); ++i) all = all && same(a.velocity[i].data(), b.velocity[i].data(), 6);
+  bool all = same_bits(a.changes.data(), b.changes.data(), a.changes.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i) all = all && same_bits(a.rows[i].impulse.data(), b.rows[i].impulse.data(), 3);
+  for (std::size_t i = 0; i < a.velocity.size(); ++i) all = all && same_bits(a.velocity[i].data(), b.velocity[i].data(), 6);
   return all;
 }
 
@@ -164,7 +136,7 @@ Plain6 plain_of(const BrickBlock& block) {
 bool same(const BrickBlock& block, const Plain6& plain) {
   const Plain6 own = plain_of(block);
   bool all = true;
-  for (std::size_t r = 0; r < 6; ++r) all = all && same(own[r].data(), plain[r].data(), 6);
+  for (std::size_t r = 0; r < 6; ++r) all = all && same_bits(own[r].data(), plain[r].data(), 6);
   return all;
 }
 
@@ -207,12 +179,13 @@ TEST_CASE("rigid: slips and pushes have the same bits in any number of lanes") {
         const double* b = ends[i].b < 0 ? nullptr : velocity[static_cast<std::size_t>(ends[i].b)].data();
         Framed plain{};
         for (std::size_t k = 0; k < 3; ++k) plain[k] = rows[i].bias[k] + plain_rate(rows[i], k, a, b);
-        CHECK_MESSAGE(same(slips[i].data(), plain.data(), 3), kernels->lanes, " lanes, row ", i, " of ", count);
+        CHECK_MESSAGE(same_bits(slips[i].data(), plain.data(), 3), kernels->lanes, " lanes, row ", i, " of ", count);
       }
       std::vector<Velocity> plain = velocity;
       kernels->apply_all(rows.data(), count, velocity.front().data());
       for (const ContactRow& row : rows) plain_apply(row, row.impulse, plain);
-      for (std::size_t i = 0; i < plain.size(); ++i) CHECK_MESSAGE(same(velocity[i].data(), plain[i].data(), 6), kernels->lanes, " lanes");
+      for (std::size_t i = 0; i < plain.size(); ++i)
+        CHECK_MESSAGE(same_bits(velocity[i].data(), plain[i].data(), 6), kernels->lanes, " lanes");
     }
   }
 }
@@ -270,8 +243,8 @@ TEST_CASE("rigid: what couples a point to its bricks has the same bits in any nu
           plain[i][0][k] = joined(push, twist);
           plain[i][1][k] = joined(body[i].inverse_mass * push, body[i].inverse_inertia * twist);
           for (std::size_t c = 0; c < 6; ++c) {
-            CHECK(same(&row.of[k][beside(i, c)], &plain[i][0][k][c], 1));
-            CHECK(same(&row.gain[k][beside(i, c)], &plain[i][1][k][c], 1));
+            CHECK(same_bits(&row.of[k][beside(i, c)], &plain[i][0][k][c], 1));
+            CHECK(same_bits(&row.gain[k][beside(i, c)], &plain[i][1][k][c], 1));
           }
         }
       }
@@ -286,7 +259,7 @@ TEST_CASE("rigid: what couples a point to its bricks has the same bits in any nu
       };
       const std::array<double, 6> own{row.k_nn, row.k_na, row.k_nc, row.k_aa, row.k_ac, row.k_cc};
       const std::array<double, 6> should{response(0, 0), response(1, 0), response(2, 0), response(1, 1), response(2, 1), response(2, 2)};
-      CHECK_MESSAGE(same(own.data(), should.data(), 6), kernels->lanes, " lanes");
+      CHECK_MESSAGE(same_bits(own.data(), should.data(), 6), kernels->lanes, " lanes");
     }
   }
 }
@@ -326,7 +299,7 @@ TEST_CASE("rigid: what a point adds to the equations has the same bits in any nu
         for (std::size_t k = 0; k < 6; ++k) plain_right[1][k] += push_b[k];
       }
       for (std::size_t i = 0; i < 4; ++i) CHECK_MESSAGE(same(blocks[i], plain[i]), kernels->lanes, " lanes, block ", i);
-      for (std::size_t i = 0; i < 2; ++i) CHECK_MESSAGE(same(right[i].data(), plain_right[i].data(), 6), kernels->lanes, " lanes");
+      for (std::size_t i = 0; i < 2; ++i) CHECK_MESSAGE(same_bits(right[i].data(), plain_right[i].data(), 6), kernels->lanes, " lanes");
     }
   }
 }
@@ -357,7 +330,7 @@ TEST_CASE("rigid: the equations of bricks have one solution in any number of lan
       std::vector<Velocity> x(count);
       REQUIRE(kernels->solve(own.data(), count, own_entries.data(), right.front().data(), x.front().data()));
       if (first.empty()) first = x;
-      for (std::size_t i = 0; i < count; ++i) CHECK_MESSAGE(same(x[i].data(), first[i].data(), 6), kernels->lanes, " lanes, ", count);
+      for (std::size_t i = 0; i < count; ++i) CHECK_MESSAGE(same_bits(x[i].data(), first[i].data(), 6), kernels->lanes, " lanes, ", count);
       // What is left of the right-hand side, by all blocks as they were given.
       for (std::size_t i = 0; i < count; ++i) {
         Velocity left = right[i];

@@ -2,20 +2,20 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "model/rigid/lane_kernels.h"
 #include "model/rigid/small_block.h"
 
 namespace topple::rigid {
 
 /// Block row i begins at the first earlier block that couples to i; everything from there to the diagonal is stored, and the same above it.
 /// Along a row of bricks that is one block, so factorising costs a fixed amount a brick; a wall costs its width squared a brick.
-template <int N>
 class BlockEnvelope {
  public:
+  explicit BlockEnvelope(const LaneKernels& kernels) : kernels_(kernels) {}
   /// `first[i]` <= i is where block row i begins.
   void shape(std::span<const int> first) {
     first_.assign(first.begin(), first.end());
@@ -36,58 +36,50 @@ class BlockEnvelope {
   }
   /// Sets all blocks to zero.
   void clear() {
-    std::fill(lower_.begin(), lower_.end(), Block<N>{});
-    std::fill(upper_.begin(), upper_.end(), Block<N>{});
-    std::fill(diagonal_.begin(), diagonal_.end(), Block<N>{});
+    std::fill(lower_.begin(), lower_.end(), PlaneBlock{});
+    std::fill(upper_.begin(), upper_.end(), PlaneBlock{});
+    std::fill(diagonal_.begin(), diagonal_.end(), PlaneBlock{});
   }
 
-  Block<N>& diagonal(std::size_t i) { return diagonal_[i]; }
-  Block<N>& lower(std::size_t i, std::size_t j) { return lower_[offset_[i] + j]; }  ///< Block (i, j), j < i.
-  Block<N>& upper(std::size_t i, std::size_t j) { return upper_[offset_[j] + i]; }  ///< Block (i, j), i < j.
+  PlaneBlock& diagonal(std::size_t i) { return diagonal_[i]; }
+  /// Blocks and right-hand sides, to be added to.
+  PlaneSystem system(std::span<Column<3>> right) {
+    return {.offset = offset_.data(),
+            .lower = lower_.data(),
+            .upper = upper_.data(),
+            .diagonal = diagonal_.data(),
+            .right = right.empty() ? nullptr : right.front().data()};
+  }
 
   /// L U with unit blocks on the diagonal of L; the diagonal of U is kept inverted. Block rows before `from` are as they were the last
   /// time. False if a block has no inverse.
-  bool factorise(std::size_t from) {
-    for (std::size_t i = from; i < diagonal_.size(); ++i) {
-      const auto first = static_cast<std::size_t>(first_[i]);
-      Block<N> pivot = diagonal_[i];
-      for (std::size_t j = first; j < i; ++j) {
-        Block<N>& left = l_[offset_[i] + j];
-        Block<N>& above = u_[offset_[i] + j];
-        left = lower_[offset_[i] + j];
-        above = upper_[offset_[i] + j];
-        for (std::size_t k = std::max(first, static_cast<std::size_t>(first_[j])); k < j; ++k) {
-          subtract_product(above, l_[offset_[j] + k], u_[offset_[i] + k]);
-          subtract_product(left, l_[offset_[i] + k], u_[offset_[j] + k]);
-        }
-        left = product(left, inverse_[j]);
-        subtract_product(pivot, left, above);
-      }
-      if (!invert(pivot)) return false;
-      inverse_[i] = pivot;
-    }
-    return true;
-  }
+  bool factorise(std::size_t from) { return kernels_.factorise_plane(factors(), from); }
 
   /// Solves for a right-hand side of which what comes before `from` is as it was the last time.
-  void solve(std::span<const Column<N>> right, std::size_t from, std::span<Column<N>> x) {
-    for (std::size_t i = from; i < diagonal_.size(); ++i) {
-      forward_[i] = right[i];
-      for (auto j = static_cast<std::size_t>(first_[i]); j < i; ++j) subtract_product(forward_[i], l_[offset_[i] + j], forward_[j]);
-    }
-    std::copy(forward_.begin(), forward_.end(), x.begin());
-    for (std::size_t i = diagonal_.size(); i-- > 0;) {
-      x[i] = product(inverse_[i], x[i]);
-      for (auto j = static_cast<std::size_t>(first_[i]); j < i; ++j) subtract_product(x[j], u_[offset_[i] + j], x[i]);
-    }
+  void solve(std::span<const Column<3>> right, std::size_t from, std::span<Column<3>> x) {
+    if (!x.empty()) kernels_.solve_plane(factors(), right.front().data(), from, x.front().data());
   }
 
  private:
+  PlaneFactors factors() {
+    return {.count = diagonal_.size(),
+            .first = first_.data(),
+            .offset = offset_.data(),
+            .lower = lower_.data(),
+            .upper = upper_.data(),
+            .diagonal = diagonal_.data(),
+            .l = l_.data(),
+            .u = u_.data(),
+            .inverse = inverse_.data(),
+            .forward = forward_.empty() ? nullptr : forward_.front().data()};
+  }
+
+  const LaneKernels& kernels_;
   std::vector<int> first_;
-  std::vector<std::size_t> offset_;                 // Of block (i, 0), if it were stored.
-  std::vector<Block<N>> lower_, upper_, diagonal_;  // The matrix.
-  std::vector<Block<N>> l_, u_, inverse_;           // Its factors.
-  std::vector<Column<N>> forward_;                  // The right-hand side after the first factor.
+  std::vector<std::size_t> offset_;  // Of block (i, 0), if it were stored; block (j, i) above the diagonal is at the same place.
+  std::vector<PlaneBlock> lower_, upper_, diagonal_;  // The matrix.
+  std::vector<PlaneBlock> l_, u_, inverse_;           // Its factors.
+  std::vector<Column<3>> forward_;                    // The right-hand side after the first factor.
 };
 
 }  // namespace topple::rigid

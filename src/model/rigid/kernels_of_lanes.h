@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/rigid/lane_kernels.h"
+#include "model/rigid/plane_lanes.h"
 #include "model/rigid/point_lanes.h"
 #include "model/rigid/sweep_lanes.h"
 
@@ -16,6 +17,10 @@ inline constexpr LaneKernels kKernels = {.lanes = L,
                                          .slips = PointLanes<L>::slips,
                                          .add_law = PointLanes<L>::add_law,
                                          .couple = CouplingLanes<L>::couple,
-                                         .solve = BrickLanes<L>::solve};
+                                         .solve = BrickLanes<L>::solve,
+                                         .add_row = PlaneLanes<L>::add_row,
+                                         .add_rows = PlaneLanes<L>::add_rows,
+                                         .factorise_plane = PlaneLanes<L>::factorise,
+                                         .solve_plane = PlaneLanes<L>::solve};
 
 }  // namespace topple::rigid

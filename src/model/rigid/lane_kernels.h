@@ -4,9 +4,12 @@
 #include <cstddef>
 
 #include "model/rigid/contact_row.h"
+#include "model/rigid/plane_law.h"
 #include "model/rigid/point_law.h"
 
 namespace topple::rigid {
+
+struct PlaneRow;
 
 /// One entry a stage of a solution, so that what is chosen once is called seldom.
 struct LaneKernels {
@@ -23,6 +26,11 @@ struct LaneKernels {
   void (*couple)(ContactRow& row, const Body& a, const Body* b);
   // BrickLanes.
   bool (*solve)(BrickRow* rows, std::size_t count, BrickEntry* entries, const double* right, double* x);
+  // PlaneLanes.
+  void (*add_row)(const PlaneRow& row, bool convex, double times, const PlaneSystem& to);
+  void (*add_rows)(const PlaneRow* rows, std::size_t count, bool convex, const PlaneSystem& to);
+  bool (*factorise_plane)(const PlaneFactors& of, std::size_t from);
+  void (*solve_plane)(const PlaneFactors& of, const double* right, std::size_t from, double* x);
 };
 
 /// For so many lanes, 0: as many as this processor has. Null if it has not so many, or there is no such number.

@@ -211,7 +211,7 @@ class PlaneFront final : public Wave {
   };
   Repeat repeat_;
   EnergyLaw energy_law_;
-  PlaneSolver solver_;
+  PlaneSolver solver_{*world_.kernels};
 };
 
 }  // namespace topple::rigid

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <cstring>
 #include "model/rigid/secant.h"
 
 namespace topple::rigid {
@@ -17,24 +16,6 @@ constexpr int kRounds = 6;             // Of the convex problem.
 constexpr int kConvexIterations = 40;  // Of Newton's method in one round; it ends by itself.
 
 double dot(const Column<3>& a, const Column<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-using Two = double __attribute__((vector_size(16), aligned(8)));
-
-// Two lanes and one number a row.
-inline void add_outer(Block<3>& out, const Column<3>& force, const Column<3>& rate) {
-  const Two first = {rate[0], rate[1]};
-  double* row = out.m.data();
-  for (std::size_t i = 0; i < 3; ++i, row += 3) {
-    const Two times = {force[i], force[i]};
-    Two sum;
-    std::memcpy(&sum, row, sizeof sum);
-    sum += times * first;
-    std::memcpy(row, &sum, sizeof sum);
-    row[2] += force[i] * rate[2];
-  }
-}
-
-inline Column<3> scaled(double scale, const Column<3>& force) { return {scale * force[0], scale * force[1], scale * force[2]}; }
 
 inline void add_scaled(Column<3>& out, double scale, const Column<3>& force) {
   for (std::size_t i = 0; i < 3; ++i) out[i] += scale * force[i];
@@ -132,64 +113,15 @@ void PlaneSolver::shape(std::size_t count, std::span<const PlaneRow> rows) {
   matrix_.shape(first_);
 }
 
-// Adds to the matrix force (rate . v) of up to two constraints of one point; forces come with their stiffness.
-inline void PlaneSolver::add(const PlaneRow& row, const Pull& pull) {
-  const auto a = static_cast<std::size_t>(row.a);
-  add_outer(matrix_.diagonal(a), pull.force_a, pull.rate_a);
-  if (row.b < 0) return;
-  const auto b = static_cast<std::size_t>(row.b);
-  add_outer(matrix_.diagonal(b), pull.force_b, pull.rate_b);
-  add_outer(a < b ? matrix_.upper(a, b) : matrix_.lower(a, b), pull.force_a, pull.rate_b);
-  add_outer(a < b ? matrix_.lower(b, a) : matrix_.upper(b, a), pull.force_b, pull.rate_a);
-}
-
-inline void PlaneSolver::push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b) {
-  add_scaled(right_[static_cast<std::size_t>(row.a)], impulse, on_a);
-  if (row.b >= 0) add_scaled(right_[static_cast<std::size_t>(row.b)], impulse, on_b);
-}
-
-// Adds what a row does in its state, `times` over, to the system of equations.
-void PlaneSolver::add(const PlaneRow& row, Law law, double times) {
-  if (!row.state.pressed && row.base == 0.0) return;
-  const bool convex = law == Law::convex;
-  const bool on_cone = convex && row.base == 0.0;
-  double bias = row.bias + (on_cone ? row.friction * row.lagged_slip : 0.0);
-  double stiffness = times * row.normal_stiffness;
-  if (row.state.grip == Grip::stick) {
-    const double along = times * row.tangent_stiffness;
-    add(row, {scaled(along, row.tangent_a), scaled(along, row.tangent_b), row.tangent_a, row.tangent_b});
-    push(row, -along * row.tangent_bias, row.tangent_a, row.tangent_b);
-    if (!row.state.pressed) return;
-    add(row, {scaled(stiffness, row.normal_a), scaled(stiffness, row.normal_b), row.normal_a, row.normal_b});
-    push(row, -stiffness * bias, row.normal_a, row.normal_b);
-    return;
-  }
-  // Sliding friction follows the normal impulse, but for a limit that is given.
-  const bool given = convex && !on_cone;
-  const double share = given ? 0.0 : -sign_of(row.state.grip) * row.friction;
-  if (given) push(row, -sign_of(row.state.grip) * times * row.lagged_limit, row.tangent_a, row.tangent_b);
-  if (!given && row.base > 0.0) push(row, times * share * row.base, row.tangent_a, row.tangent_b);
-  if (!row.state.pressed && !on_cone) return;
-  Column<3> force_a = row.normal_a, force_b = row.normal_b;
-  add_scaled(force_a, share, row.tangent_a);
-  add_scaled(force_b, share, row.tangent_b);
-  if (on_cone) {
-    stiffness = times * row.edge_stiffness;
-    bias += share * row.tangent_bias;
-  }
-  push(row, -stiffness * bias, force_a, force_b);
-  add(row, {scaled(stiffness, force_a), scaled(stiffness, force_b), on_cone ? force_a : row.normal_a, on_cone ? force_b : row.normal_b});
-}
-
 // The system of equations that follows from the states that the rows assume.
 void PlaneSolver::assemble(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law) {
   matrix_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const PlaneUnknown& body = bodies[i];
-    matrix_.diagonal(i).m = {body.mass, 0.0, 0.0, 0.0, body.mass, 0.0, 0.0, 0.0, body.inertia};
+    matrix_.diagonal(i) = {{{body.mass}, {0.0, body.mass}, {0.0, 0.0, body.inertia}}};
     right_[i] = {body.mass * body.velocity.x, body.mass * body.velocity.z, body.inertia * body.velocity.turn};
   }
-  for (const PlaneRow& row : rows) add(row, law, 1.0);
+  kernels_.add_rows(rows.data(), rows.size(), law == Law::convex, matrix_.system(right_));
 }
 
 // Velocities that follow; bodies before `from` and all that touches them alone are as they were the last time.
@@ -206,6 +138,7 @@ bool PlaneSolver::solve_system(std::size_t from) {
 std::size_t PlaneSolver::change_the_worst(std::span<PlaneRow> rows) {
   const int count = static_cast<int>(most_wrong_.size());
   std::size_t from = most_wrong_.size();
+  const PlaneSystem system = matrix_.system(right_);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (wrong_[k] == 0.0) continue;
     PlaneRow& row = rows[k];
@@ -215,9 +148,9 @@ std::size_t PlaneSolver::change_the_worst(std::span<PlaneRow> rows) {
       most = std::max(most, most_wrong_[static_cast<std::size_t>(i)]);
     }
     if (wrong_[k] < kWorst * most) continue;
-    add(row, Law::true_law, -1.0);
+    kernels_.add_row(row, false, -1.0, system);
     row.state = should_[k];
-    add(row, Law::true_law, 1.0);
+    kernels_.add_row(row, false, 1.0, system);
     from = std::min(from, static_cast<std::size_t>(low));
   }
   return from;

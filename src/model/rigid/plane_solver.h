@@ -62,6 +62,7 @@ struct PlaneUnknown {
 /// Newton's method with an exact line search; where nothing slides it is the true law, and elsewhere it finds the states.
 class PlaneSolver {
  public:
+  explicit PlaneSolver(const LaneKernels& kernels) : kernels_(kernels), matrix_(kernels) {}
   /// Overwrites the velocities with those after all impulses, and the rows with the impulses.
   void solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows);
 
@@ -69,21 +70,15 @@ class PlaneSolver {
   enum class Law : std::uint8_t { true_law, convex };
   void shape(std::size_t count, std::span<const PlaneRow> rows);
   void assemble(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law);
-  void add(const PlaneRow& row, Law law, double times);
   bool solve_system(std::size_t from);
   std::size_t change_the_worst(std::span<PlaneRow> rows);
   bool settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
   void solve_convex(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
   double best_share(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows);
-  struct Pull {
-    Column<3> force_a, force_b;  // Of a velocity of one, on the two bodies.
-    Column<3> rate_a, rate_b;    // J of the velocity.
-  };
-  void add(const PlaneRow& row, const Pull& pull);
-  void push(const PlaneRow& row, double impulse, const Column<3>& on_a, const Column<3>& on_b);
 
+  const LaneKernels& kernels_;
   std::vector<int> first_;
-  BlockEnvelope<3> matrix_;
+  BlockEnvelope matrix_;
   std::vector<Column<3>> velocity_, right_, before_, change_, convex_;
   std::vector<PlaneRow> kept_;
   std::vector<PointState> should_;
