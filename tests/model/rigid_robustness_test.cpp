@@ -72,6 +72,18 @@ TEST_CASE("rigid: rows that made energy once or let bricks through do so no more
   }
 }
 
+// A brick that comes to rest and is struck in the same step counted as one that rests, and again whenever it did.
+TEST_CASE("rigid: when all is at rest the potential energy is that of where the bricks lie") {
+  const std::vector<SweptRow> rows = all_rows();
+  for (const std::size_t i : {5U, 13U, 14U, 25U, 44U, 50U, 61U, 70U}) {
+    const SweptRun run = run_swept(rows[i], kUntil);
+    CAPTURE(i);
+    CAPTURE(rows[i].words());
+    CHECK(run.progress == Progress::at_rest);
+    CHECK(run.unaccounted < 1e-9);
+  }
+}
+
 // build/release/test_model --no-skip --test-case="*whole sweep*" prints every row that breaks a law, and how many there are.
 TEST_CASE("rigid: the whole sweep of rows" * doctest::skip()) {
   int ends = 0, keep_energy = 0, stay_apart = 0, finite = 0;

@@ -30,6 +30,7 @@ struct SweptRun {
   Progress progress = Progress::running;
   double time = 0.0;         ///< When it ended, in sqrt(height / gravity).
   double energy_rise = 0.0;  ///< Largest rise of what is left of energy over any two moments, of push work and potential energy released.
+  double unaccounted = 0.0;  ///< What its potential energy at the end is off that of where the bricks lie, of that of a standing brick.
   double overlap = 0.0;      ///< Deepest of two bricks, or of a brick and the floor, in thicknesses of the thinner.
 };
 
@@ -119,6 +120,10 @@ inline SweptRun run_swept(const SweptRow& row, double until) {
     rise = std::max(rise, sum - least);
   }
   run.energy_rise = rise / (frame.energy.push_work - lowest);
+  const BrickKind& kind = layout.kinds[0];
+  double lost = frame.energy.potential / (kind.mass * layout.gravity);
+  for (std::size_t i = 0; i < poses.size(); ++i) lost -= poses[i].position.z - 0.5 * kind.height;
+  run.unaccounted = std::abs(lost) / kind.height;
   return run;
 }
 

@@ -142,7 +142,8 @@ void PlaneFront::wake(BrickId brick, double /*time*/) {
     place = add(brick, locate(brick).place);
   }
   if (bricks_[static_cast<std::size_t>(place)].moving) return;
-  ledger_.woken.push_back(brick);
+  // One that came to rest in this very step has not rested for anybody else.
+  if (std::erase_if(ledger_.rested, [brick](const Ledger::Rest& rest) { return rest.brick == brick; }) == 0) ledger_.woken.push_back(brick);
   std::erase_if(rested_now_, [brick](const PlaneBrick& rested) { return rested.id == brick; });
   PlaneBrick& woken = bricks_[static_cast<std::size_t>(place)];
   woken.moving = true;

@@ -164,8 +164,9 @@ class PlaneFront final : public Wave {
     double cut = 0.0;       // ...and up to the first impact.
     double done = 0.0;      // How far the step has come in it.
   };
-  bool reckoned_ = false;  // So will those of the next drift be.
-  double now_ = 0.0;       // When the drift under way began [s].
+  bool after_blow_ = false;  // No kick since the last blow.
+  bool reckoned_ = false;    // The velocities at the beginning of the next drift are reckoned back.
+  double now_ = 0.0;         // When the drift under way began [s].
   Drift drift_;
   double since_look_ = 0.0;             // Time since neighbours and rests were looked at [s],
   int cuts_ = 0;                        // and impacts located in it.

@@ -159,8 +159,8 @@ void PlaneFront::write_down_end(const Marks& before) {
   PlaneCycle::Drift& drift = cycle_.drifts[cycle_.count - 1];
   const BrickId first = cycle_.first;
   const Marks now = marks();
-  cycle_.whole =
-      cycle_.whole && now.taken >= before.taken && now.left >= before.left && now.rested - before.rested == now.still - before.still;
+  cycle_.whole = cycle_.whole && now.taken >= before.taken && now.left >= before.left && now.rested >= before.rested &&
+                 now.rested - before.rested == now.still - before.still;
   if (!cycle_.whole) return;
   const auto numbered = [first](const std::vector<BrickId>& from, std::size_t begin, std::vector<int>& out) {
     out.clear();

@@ -335,7 +335,7 @@ void PlaneFront::keep(Pattern& pattern, int head, int most) const {
 // A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
 void PlaneFront::leap(double time) {
   const double next = stride();
-  reckoned_ = false;
+  reckoned_ = after_blow_ = false;
   make_rows(&PlaneMemory::kick);
   const int head = place_of(last_struck_);
   Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;

@@ -99,7 +99,9 @@ void Front::set_moving(int place) {
   body.inverse_mass = 1.0 / world_.kinds[body.kind].mass;
   refresh(body);
   member.moving = true;
-  member.quiet = 0.0;
+  member.quiet = member.stayed = 0.0;
+  member.stays_at = body.position;
+  member.stays_turned = body.orientation;
   member.tilt_cosine = (body.axes * member.local_up).z;
   member.middle = member.gain = {};
   planned_for_ = 0.0;
@@ -317,7 +319,13 @@ void Front::retire(double time) {
     const double ahead = horizon * (speed + 0.5 * horizon * gain / world_.step);
     const bool quiet = ahead < limits.retire * member.thin && !member.pushed;
     member.quiet = quiet ? member.quiet + world_.step : 0.0;
-    if (member.quiet < limits.patience * member.time_scale) continue;
+    if (displacement(body, member.stays_at, member.stays_turned) > limits.retire * member.thin) {
+      member.stays_at = body.position;
+      member.stays_turned = body.orientation;
+      member.stayed = 0.0;
+    }
+    member.stayed = member.pushed ? 0.0 : member.stayed + world_.step;
+    if (member.quiet < limits.patience * member.time_scale && member.stayed < limits.stays * member.time_scale) continue;
     any = true;
     energy_law_.add(-kinetic_energy(body) - potential_energy(world_, body.id, body.position.z));
     member.moving = false;

@@ -21,6 +21,9 @@ struct Member {
   double thin = 0.0;                  ///< Its thinnest side [m].
   double time_scale = 0.0;            ///< sqrt(longest side / gravity) [s].
   double quiet = 0.0;                 ///< How long it has hardly moved [s].
+  double stayed = 0.0;                ///< How long it has been near this place [s].
+  Vec3 stays_at;                      ///< That place,
+  Quat stays_turned;                  ///< and how it was turned there.
   Twist middle;                       ///< What carries it through the drift that is planned.
   Twist gain;                         ///< Their change in the last drift, per time: its acceleration before the last blow.
   double tilt_cosine = 1.0;

@@ -48,6 +48,7 @@ struct Tolerances {
   double retire = 5e-3;    ///< A brick rests when it would move by no more than this from now on...
   double horizon = 1.0;    ///< ...within this time...
   double patience = 0.2;   ///< ...and has done so for this long.
+  double stays = 10.0;     ///< It rests too when it has not moved by that for so long, however it trembles.
   double support = 1e-2;   ///< A resting brick wakes when what it leans on has moved by this.
   double in_plane = 5e-2;  ///< A row that has become straight may be out of its plane by this.
   double load = 0.02;      ///< A brick that stands or rests wakes under this share of its weight.
