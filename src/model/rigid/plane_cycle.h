@@ -124,7 +124,6 @@ struct PlaneCycle {
   /// One drift, and all that its end did.
   struct Drift {
     double whole = 0.0, cut = 0.0;  ///< [s]
-    bool reckoned = false;          ///< See PlaneFront::take_blow().
     std::vector<Place> places;
     std::vector<Arrival> arrivals;
     std::vector<int> taken, left, woken;

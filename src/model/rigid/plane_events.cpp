@@ -235,26 +235,23 @@ void PlaneFront::read(std::span<FreeMotion> out, Energy* energy) const {
   for (const PlaneBrick& brick : rested_now_) {
     if (!is_unseen(brick.id)) out[next++] = {brick.id, Phase::resting, pose_of(brick), {}, {}};
   }
-  const auto tell = [&](const PlaneBrick& began) {
-    const PlaneBrick brick = at_this_moment(began);
+  const auto tell = [&](const PlaneBrick& brick) {
     const PlaneVec& v = brick.velocity;
     if (!is_unseen(brick.id)) {
       out[next++] = {brick.id, Phase::falling, pose_of(brick), v.x * plane_.along + Vec3{0.0, 0.0, v.z}, v.turn * plane_.across};
     }
     if (energy == nullptr) return;
-    // Energy hardly changes in a drift: where the velocities at its beginning are reckoned back, that of its middle is the truer one.
-    const double middle = began.box.place.z + 0.25 * drift_.whole * (began.velocity.z + began.middle.z);
-    energy->kinetic += kinetic_energy(brick, drift_.reckoned ? brick.middle : brick.velocity);
-    energy->potential += potential_energy(world_, brick.id, drift_.reckoned ? middle : brick.box.place.z);
+    energy->kinetic += kinetic_energy(brick, brick.velocity);
+    energy->potential += potential_energy(world_, brick.id, brick.box.place.z);
   };
   if (repeat_.on) {
     for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) {
-      if (energy != nullptr || !is_unseen(last_struck_ + place.brick)) tell(as_it_began(place));
+      if (energy != nullptr || !is_unseen(last_struck_ + place.brick)) tell(at_this_moment(place));
     }
     return;
   }
   for (const PlaneBrick& brick : bricks_) {
-    if (brick.moving) tell(brick);
+    if (brick.moving) tell(at_this_moment(brick));
   }
 }
 

@@ -98,7 +98,7 @@ class PlaneFront final : public Wave {
   bool next_is_alike();
   void end_repeat();
   void break_off();
-  PlaneBrick as_it_began(const PlaneCycle::Place& place) const;
+  PlaneBrick at_this_moment(const PlaneCycle::Place& place) const;
   PlaneManifold at_this_moment(const PlaneTouch& touch) const;
   PlaneBrick at_this_moment(const PlaneBrick& brick) const;
   void recall(const Pattern& pattern, int head, int most = 1 << 20);
@@ -128,7 +128,6 @@ class PlaneFront final : public Wave {
   void accept_drift(double cut, double whole);
   bool activate_new_points();
   void take_blow(double whole, double next);
-  void reckon_back(double next);
   void stop_at_once();
   double moving_energy() const;
   double spare_energy() const;
@@ -159,14 +158,11 @@ class PlaneFront final : public Wave {
   /// Bricks are where a drift began; it ends at an impact or after its whole length, mostly in another step than it began.
   struct Drift {
     bool under_way = false;
-    bool reckoned = false;  // The velocities at its beginning, from those in its middle.
-    double whole = 0.0;     // As it is planned [s]...
-    double cut = 0.0;       // ...and up to the first impact.
-    double done = 0.0;      // How far the step has come in it.
+    double whole = 0.0;  // As it is planned [s]...
+    double cut = 0.0;    // ...and up to the first impact.
+    double done = 0.0;   // How far the step has come in it.
   };
-  bool after_blow_ = false;  // No kick since the last blow.
-  bool reckoned_ = false;    // The velocities at the beginning of the next drift are reckoned back.
-  double now_ = 0.0;         // When the drift under way began [s].
+  double now_ = 0.0;  // When the drift under way began [s].
   Drift drift_;
   double since_look_ = 0.0;             // Time since neighbours and rests were looked at [s],
   int cuts_ = 0;                        // and impacts located in it.

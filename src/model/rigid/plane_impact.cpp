@@ -253,25 +253,8 @@ void PlaneFront::take_blow(double whole, double next) {
   }
   plan(next, !bounced, struck_now_.empty() ? nullptr : &strike_);
   for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].load = 0.0;
-  const bool again = after_blow_;
-  after_blow_ = true;
-  reckoned_ = false;
   if (bounced) return keep_energy();
-  // Where blow follows upon blow, what the forces did before is not known, and drifts are so short that how they begin matters most.
-  if (again || moving_ <= kFew) return stop_at_once();
-  reckon_back(next);
-}
-
-// The velocities right after a blow, as those in the middle of the drift of `next` that follows less what the forces did before the blow:
-// a solution of their own costs as much as all others of a strike. Where that would make energy it must be.
-void PlaneFront::reckon_back(double next) {
-  double energy = 0.0;
-  for (const PlaneBrick& brick : bricks_) energy += kinetic_energy(brick, after_the_blow(brick, next));
-  reckoned_ = energy <= moving_energy() + spare_energy();
-  if (!reckoned_) return stop_at_once();
-  for (PlaneBrick& brick : bricks_) {
-    if (brick.moving) brick.velocity = after_the_blow(brick, next);
-  }
+  stop_at_once();
 }
 
 // The velocities right after a blow: forces may act now that did not before it, and others read them where a step ends in the drift.

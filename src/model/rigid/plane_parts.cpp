@@ -58,7 +58,7 @@ void PlaneFront::hand_over(std::vector<HandedBrick>& bricks, std::vector<ActiveF
                       brick.velocity.turn * plane_.across, brick.quiet, brick.pushed, brick.landed});
   };
   if (repeat_.on) {
-    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) hand(at_this_moment(as_it_began(place)));
+    for (const PlaneCycle::Place& place : cycle_.drifts[repeat_.drift].places) hand(at_this_moment(place));
     for (const PlaneBrick& brick : bricks_) disown(brick.id);
     for (std::size_t i = 0; i < cycle_.count; ++i) {
       for (const int brick : cycle_.drifts[i].taken) disown(last_struck_ + brick);

@@ -144,7 +144,6 @@ void PlaneFront::write_down_places() {
   PlaneCycle::Drift& drift = cycle_.drifts[cycle_.count++];
   drift.whole = drift_.whole;
   drift.cut = drift_.cut;
-  drift.reckoned = drift_.reckoned;
   drift.places.clear();
   drift.arrivals.clear();
   drift.moves.clear();
@@ -211,8 +210,7 @@ bool PlaneFront::is_unseen(BrickId brick) const { return repeat_.on && way_ * (b
 bool PlaneFront::repeat_to(double moment) {
   while (repeat_.on) {
     const PlaneCycle::Drift& drift = cycle_.drifts[repeat_.drift];
-    drift_ = {
-        .under_way = true, .reckoned = drift.reckoned, .whole = drift.whole, .cut = drift.cut, .done = std::min(moment - now_, drift.cut)};
+    drift_ = {.under_way = true, .whole = drift.whole, .cut = drift.cut, .done = std::min(moment - now_, drift.cut)};
     for (; repeat_.arrivals < drift.arrivals.size() && drift.arrivals[repeat_.arrivals].time <= drift_.done; ++repeat_.arrivals) {
       const PlaneCycle::Arrival& arrival = drift.arrivals[repeat_.arrivals];
       note_arrival(last_struck_ + arrival.brick, now_ + arrival.time);
@@ -330,7 +328,7 @@ void PlaneFront::break_off() {
   adopt(bricks);
 }
 
-PlaneBrick PlaneFront::as_it_began(const PlaneCycle::Place& place) const {
+PlaneBrick PlaneFront::at_this_moment(const PlaneCycle::Place& place) const {
   PlaneBrick brick = repeat_.one;
   brick.id = last_struck_ + place.brick;
   brick.landed = place.landed;
@@ -341,7 +339,7 @@ PlaneBrick PlaneFront::as_it_began(const PlaneCycle::Place& place) const {
   brick.middle = place.middle;
   brick.listed_at = place.listed_at;
   set_turn(brick.box);
-  return brick;
+  return at_this_moment(brick);
 }
 
 // Every brick that has moved unseen, at the beginnings of all drifts since it was struck.

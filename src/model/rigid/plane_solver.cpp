@@ -9,8 +9,8 @@ namespace topple::rigid {
 
 namespace {
 
-constexpr double kWorst = 0.95;  // States that are wrong by this share of the worst change together. Tuned on jittered rows of three gaps.
-constexpr int kNear = 1;         // That many bricks to each side.
+constexpr double kWorst = 0.7;         // States that are wrong by this share of the worst change together. Tuned on the cross-check row.
+constexpr int kNear = 1;               // That many bricks to each side.
 constexpr int kTrueIterations = 30;    // Of Newton's method with the true law before the convex problem is asked for the states.
 constexpr int kRounds = 6;             // Of the convex problem.
 constexpr int kConvexIterations = 40;  // Of Newton's method in one round; it ends by itself.

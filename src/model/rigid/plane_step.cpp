@@ -82,7 +82,7 @@ void PlaneFront::begin_drift(double moment) {
   const double left = moment - now_;
   const double whole = keeps_step() && left > 1e-6 * world_.step ? std::min(stride(), left) : stride();
   if (std::abs(planned_for_ - whole) > 1e-9 * world_.step) plan(whole, false);
-  drift_ = {.under_way = true, .reckoned = reckoned_, .whole = whole, .cut = whole};
+  drift_ = {.under_way = true, .whole = whole, .cut = whole};
   if (cuts_ < world_.tolerances.cuts * moving_) {
     drift_.cut = find_cut(whole);
   } else {
@@ -335,7 +335,6 @@ void PlaneFront::keep(Pattern& pattern, int head, int most) const {
 // A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
 void PlaneFront::leap(double time) {
   const double next = stride();
-  reckoned_ = after_blow_ = false;
   make_rows(&PlaneMemory::kick);
   const int head = place_of(last_struck_);
   Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;
