@@ -30,16 +30,11 @@ class RunUnits {
 
   // ---- Out of it. Times are not here: they count from steps, which the model does ----
 
-  /// Rounded to a picometre: what happens along a row that lies along an axis of the layout has one place across it, and is kept in few
-  /// bytes [m].
-  Vec3 place(const Vec3& of) const {
-    const Vec3 at = origin_ + length_ * direction(of);
-    return {on_grid(at.x, kToldGrid), on_grid(at.y, kToldGrid), on_grid(at.z, kToldGrid)};
-  }
-  Vec3 force(const Vec3& of) const { return force_ * direction(of); }  ///< [N]
-  double force(double of) const { return force_ * of; }                ///< [N]
-  double impulse(double of) const { return impulse_ * of; }            ///< [N s]
-  double energy(double of) const { return energy_ * of; }              ///< [J]
+  Vec3 place(const Vec3& of) const { return origin_ + length_ * direction(of); }  ///< [m]
+  Vec3 force(const Vec3& of) const { return force_ * direction(of); }             ///< [N]
+  double force(double of) const { return force_ * of; }                           ///< [N]
+  double impulse(double of) const { return impulse_ * of; }                       ///< [N s]
+  double energy(double of) const { return energy_ * of; }                         ///< [J]
   /// Of bricks of the layout. One that has not moved is exactly where it was put down.
   void tell(std::span<FreeMotion> motions, const std::vector<Brick>& bricks) const;
 
@@ -47,7 +42,6 @@ class RunUnits {
   // Added to a number and taken off again, these leave a multiple of 2^-28, 2^-40 or 2^-42: the last bit of the sum. A place that is
   // rounded to 4e-9 still lies in a row's plane, and at its pitch (row_plane.h). Headings are far finer, since rows are long.
   static constexpr double kPlaceGrid = 0x1.8p+24, kUpGrid = 0x1.8p+12, kHeadingGrid = 0x1.8p+10;
-  static constexpr double kToldGrid = 0x1.8p+12;  // 2^-40.
   static constexpr double on_grid(double value, double grid) { return (value + grid) - grid; }
   static constexpr double kBack = (kPi + kHeadingGrid) - kHeadingGrid;  // The heading that is neither to the left nor to the right.
 
