@@ -13,7 +13,7 @@ namespace topple::rigid {
 class EnergyLaw {
  public:
   /// A rise of so much of the weight of what moves, times its size, is let pass: where velocities are read between two kicks they are exact
-  /// to the order of the step alone. Rows and curves of dominoes stay below a third of it.
+  /// to the order of the step alone. Rows and curves of dominoes hardly reach it.
   static constexpr double kSpare = 1e-4;
 
   /// What a brick brings that begins to move; the opposite of what it takes with it when it comes to rest [J].
