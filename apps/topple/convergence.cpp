@@ -1,6 +1,7 @@
 /// `topple convergence`: how the error of each integrator shrinks with its time step.
 #include <cstdio>
 
+#include "output.h"
 #include "source.h"
 #include "text.h"
 #include "topple/export.h"
@@ -34,8 +35,10 @@ class ConvergenceVerb final : public Verb {
   const char* example() const override { return "topple convergence scenes/report_row.toml -o convergence.svg"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("LAYOUT", file_, "A layout file (.toml); its first brick falls freely from its tip angle + 1 degree")->required();
-    app.add_option("-o,--output", output_, "The file to write; its ending says as what")->required()->type_name("FILE.svg|.png|.pdf");
+    app.add_option("LAYOUT", file_, "A layout file (.toml); its first brick falls freely from its tip angle + 1 degree")
+        ->required()
+        ->type_name("");
+    app.add_option("-o,--out", output_, "The file to write; its ending says as what")->required()->type_name("FILE.svg|.png|.pdf");
   }
 
   int run() override {
@@ -43,6 +46,8 @@ class ConvergenceVerb final : public Verb {
     if (ending != ".svg" && ending != ".png" && ending != ".pdf") {
       return complain("-o " + output_.string() + ": the name must end in .svg, .png or .pdf.", kBadInput);
     }
+    if (refused_as_recording(file_, "convergence")) return kBadInput;
+    if (const std::string why = no_place_for(output_); !why.empty()) return complain(why, kFailed);
     const Result<Layout> layout = load_layout(file_);
     if (!layout) {
       return complain(layout.error(), kBadInput);

@@ -1,6 +1,7 @@
 /// `topple export`: a recording as tables for other programs.
 #include <cstdio>
 
+#include "output.h"
 #include "source.h"
 #include "text.h"
 #include "topple/export.h"
@@ -17,7 +18,7 @@ class ExportVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("-o,--output", output_, "The file to write; its ending says as what")->required()->type_name("FILE.csv|.h5");
+    app.add_option("-o,--out", output_, "The file to write; its ending says as what")->required()->type_name("FILE.csv|.h5");
     app.add_flag("--events", events_, "The events instead of the knots of all tracks (.csv; an .h5 holds both)");
   }
 
@@ -29,6 +30,7 @@ class ExportVerb final : public Verb {
     if (ending == ".h5" && events_) {
       return complain("--events chooses the table of a .csv; an .h5 file holds the events in any case.", kBadInput);
     }
+    if (const std::string why = no_place_for(output_); !why.empty()) return complain(why, kFailed);
     const std::expected<Recording, int> recording = open_recording(options_);
     if (!recording) {
       return recording.error();

@@ -12,6 +12,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostDoubts = 5;  // Of each sort; the page shows all in their places.
+
 /// Whichever unit a person would use for a length [m].
 std::string length_text(double length) {
   if (length >= 1000.0) {
@@ -50,6 +52,11 @@ void print_summary(const Layout& layout, const LayoutSummary& summary) {
   std::printf("  %-12s %zu\n", "pushes", layout.pushes.size());
 }
 
+/// Where the run may stop, as far as geometry alone can say.
+void print_doubts(const std::vector<Doubt>& doubts) {
+  for (std::size_t i = 0; i < doubts.size(); ++i) std::printf("  %-12s %s\n", i == 0 ? "doubts" : "", doubts[i].words.c_str());
+}
+
 Json counts_json(const std::vector<LayoutSummary::Count>& counts) {
   Json json = Json::object();
   for (const LayoutSummary::Count& count : counts) {
@@ -58,7 +65,7 @@ Json counts_json(const std::vector<LayoutSummary::Count>& counts) {
   return json;
 }
 
-void print_json(const Layout& layout, const LayoutSummary& summary) {
+void print_json(const Layout& layout, const LayoutSummary& summary, const std::vector<Doubt>& doubts) {
   Json json;
   json["version"] = TOPPLE_VERSION;
   json["layout"] = layout.name;
@@ -70,17 +77,19 @@ void print_json(const Layout& layout, const LayoutSummary& summary) {
   json["kinds"] = counts_json(summary.kinds);
   json["colors"] = counts_json(summary.colors);
   json["pushes"] = layout.pushes.size();
+  json["doubts"] = Json::array();
+  for (const Doubt& doubt : doubts) json["doubts"].push_back(doubt.words);
   std::printf("%s\n", json.dump(2).c_str());
 }
 
 class LayoutVerb final : public Verb {
  public:
   const char* name() const override { return "layout"; }
-  const char* purpose() const override { return "Check a layout file and print what it builds"; }
+  const char* purpose() const override { return "Check a layout file, print what it builds, and where its run may stop"; }
   const char* example() const override { return "topple layout scenes/report_row.toml"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "A layout file (.toml)")->required();
+    app.add_option("FILE", file_, "A layout file (.toml)")->required()->type_name("");
     app.add_option("--set", settings_, "A setting over what the file says, as often as needed")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
@@ -88,12 +97,20 @@ class LayoutVerb final : public Verb {
   }
 
   int run() override {
+    if (refused_as_recording(file_, "layout")) return kBadInput;
     const Result<Layout> layout = load_layout(file_, settings_);
     if (!layout) {
       return complain(layout.error(), kBadInput);
     }
+    if (const Result<ModelConfig> model = model_config(*layout); !model) return complain(model.error(), kBadInput);
     const LayoutSummary summary = summarize(*layout);
-    json_ ? print_json(*layout, summary) : print_summary(*layout, summary);
+    const std::vector<Doubt> doubts = find_doubts(*layout, kMostDoubts);
+    if (json_) {
+      print_json(*layout, summary, doubts);
+      return kDone;
+    }
+    print_summary(*layout, summary);
+    print_doubts(doubts);
     return kDone;
   }
 

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "interrupt.h"
+#include "misuse.h"
+#include "output.h"
+#include "topple/run.h"
 #include "verb.h"
 
 namespace topple::app {
@@ -34,9 +37,12 @@ int exit_code_of(const CLI::App& program, const CLI::ParseError& error) {
 
 int run_program(int argc, char** argv) {
   CLI::App program("Topple plans, predicts and shows domino runs.", "topple");
-  program.set_version_flag("--version", std::string("topple ") + TOPPLE_VERSION, "Print the version");
+  // With the lanes, which a report of a slow run is not whole without: they hang on the processor and not on the version.
+  program.set_version_flag("--version", "topple " TOPPLE_VERSION ", up to " + std::to_string(most_lanes()) + " lanes on this processor",
+                           "Print the version, and how many lanes --lanes can ask for");
   program.set_help_flag("-h,--help", "Print this help");
   program.require_subcommand(1);
+  program.failure_message(misuse_words);
   program.footer(
       "Exit codes: 0 done (also when a wave dies), 2 bad input, 130 interrupted, 1 anything else.\n\n"
       "Example:\n  topple run scenes/report_row.toml");
@@ -69,7 +75,8 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   topple::app::watch_for_interrupt();
   try {
-    return topple::app::run_program(argc, argv);
+    const int code = topple::app::run_program(argc, argv);
+    return topple::app::output_is_whole() || code != topple::app::kDone ? code : topple::app::kFailed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "topple cannot go on: %s\n", error.what());
     return topple::app::kFailed;

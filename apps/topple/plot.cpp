@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "misuse.h"
+#include "output.h"
 #include "source.h"
 #include "text.h"
 #include "topple/export.h"
@@ -68,12 +70,12 @@ class PlotVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("-o,--output", output_, "The file to write; its ending says as what")->required()->type_name("FILE.svg|.png|.pdf");
+    app.add_option("-o,--out", output_, "The file to write; its ending says as what")->required()->type_name("FILE.svg|.png|.pdf");
     app.add_option("--figure", figure_,
                    "motion: angle, angular velocity and acceleration of chosen bricks; arrival: when the wave came, along the run; "
                    "speed: how fast, along the run; energy: through time (default motion)")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"motion", "arrival", "speed", "energy"}));
+        ->check(one_of({"motion", "arrival", "speed", "energy"}));
     app.add_option("--bricks", bricks_, "Bricks of a motion figure (default: the first few that moved)")->type_name("0,5,9-12");
   }
 
@@ -83,6 +85,9 @@ class PlotVerb final : public Verb {
       return complain("-o " + output_.string() + ": the name must end in .svg, .png or .pdf.", kBadInput);
     }
     config_.figure = figure_of(figure_);
+    if (!bricks_.empty() && config_.figure != Figure::motion) {
+      return complain("--bricks chooses the curves of --figure motion; a figure of " + figure_ + " is of all bricks.", kBadInput);
+    }
     if (!bricks_.empty()) {
       Result<std::vector<BrickId>> bricks = parse_bricks(bricks_);
       if (!bricks) {
@@ -90,6 +95,7 @@ class PlotVerb final : public Verb {
       }
       config_.bricks = std::move(*bricks);
     }
+    if (const std::string why = no_place_for(output_); !why.empty()) return complain(why, kFailed);
     const std::expected<Recording, int> recording = open_recording(options_);
     if (!recording) {
       return recording.error();

@@ -4,17 +4,19 @@
 #include <atomic>
 #include <charconv>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "film_browser.h"
 #include "interrupt.h"
+#include "misuse.h"
+#include "output.h"
 #include "page_server.h"
 #include "recording_bytes.h"
 #include "source.h"
 #include "text.h"
+#include "topple/export.h"
 #include "verb.h"
 
 namespace topple::app {
@@ -82,17 +84,17 @@ class RenderVerb final : public Verb {
     app.add_option("-o,--out", out_, "The film: a name that ends in .mp4 or .webm")->type_name("FILE")->required();
     app.add_option("--camera", camera_, "still, orbit, front, eye or top (default still)")
         ->type_name("NAME")
-        ->check(CLI::IsMember({"still", "orbit", "front", "eye", "top"}));
+        ->check(one_of({"still", "orbit", "front", "eye", "top"}));
     app.add_option("--size", size_, "Width and height in pixels (default 1280x720)")
         ->type_name("WxH")
         ->check(CLI::Validator(check_size, ""));
-    app.add_option("--fps", fps_, "Frames a second (default 30)")->type_name("N")->check(CLI::Range(1, 240));
-    app.add_option("--speed", speed_, "Seconds of the run in a second of the film (default 1)")
+    app.add_option("--fps", fps_, "Frames a second, 1 to 240 (default 30)")->type_name("N")->check(whole_number(1, 240));
+    app.add_option("--speed", speed_, "Seconds of the run in a second of the film, 0.001 to 1000 (default 1)")
         ->type_name("X")
-        ->check(CLI::Range(0.001, 1000.0));
-    app.add_option("--samples", samples_, "Pictures averaged into a frame; more give soft shadows and depth of field (default 1)")
+        ->check(number(0.001, 1000.0));
+    app.add_option("--samples", samples_, "Pictures averaged into a frame, 1 to 256; more give soft shadows and depth of field (default 1)")
         ->type_name("N")
-        ->check(CLI::Range(1, 256));
+        ->check(whole_number(1, 256));
     app.add_flag("--no-sound", silent_, "Without the clicks of the hits");
     app.add_flag("--forces", forces_, "With what presses on what as arrows at the contacts (hinge and rigid)");
     app.add_flag("--dark", dark_, "On the dark table");
@@ -101,6 +103,7 @@ class RenderVerb final : public Verb {
   int run() override {
     const std::string format = out_.extension() == ".mp4" ? "mp4" : out_.extension() == ".webm" ? "webm" : "";
     if (format.empty()) return complain("--out " + out_.string() + ": a film's name ends in .mp4 or .webm.", kBadInput);
+    if (const std::string why = no_place_for(out_); !why.empty()) return complain(why, kFailed);
     const Result<std::filesystem::path> page = find_page();
     if (!page) return complain(page.error(), kFailed);
     Result<Site> site = read_page(*page);
@@ -157,10 +160,7 @@ class RenderVerb final : public Verb {
     if (interrupted()) return complain("Interrupted: no film was made.", kInterrupted);
     if (!delivery.over) return complain("Chromium ended before the film was made. It said:\n" + browser.last_words(), kFailed);
     if (!delivery.good) return complain("No film was made. " + delivery.body, kFailed);
-    std::ofstream stream(out_, std::ios::binary);
-    stream << delivery.body;
-    stream.close();
-    if (!stream) return complain(out_.string() + " cannot be written.", kFailed);
+    if (const Result<void> written = save_bytes(delivery.body, out_); !written) return complain(written.error(), kFailed);
     std::printf("%s: %d frames, %s\n", out_.string().c_str(), delivery.of.load(), byte_size(delivery.body.size()).c_str());
     return kDone;
   }

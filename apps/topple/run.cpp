@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "interrupt.h"
+#include "output.h"
 #include "source.h"
 #include "summary.h"
 #include "text.h"
@@ -37,6 +38,9 @@ class GrowingFile {
   }
 
   const std::optional<Error>& error() const { return error_; }
+
+  /// Of a file that could not be finished: its whole pieces can still be read.
+  std::string what_is_left() const { return file_ ? "\nWhat was recorded before is in " + path_.string() + ".part, and can be read." : ""; }
 
  private:
   bool open(const Recording& recording) {
@@ -72,20 +76,18 @@ class RunVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app::declare(app, options_, "LAYOUT");
-    app.add_option("--out", out_, "Write the recording to this file while the run goes on")->type_name("FILE.topple");
+    app.add_option("-o,--out", out_, "Write the recording to this file while the run goes on")->type_name("FILE.topple");
     app.add_flag("--profile", with_profile_, "Print where the time went, stage by stage of a step");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
   }
 
   int run() override {
-    if (is_recording(options_.file)) {
-      return complain(options_.file.string() + " is a recording; run takes a layout. `topple replay` runs a recording's recipe again.",
-                      kBadInput);
-    }
+    if (refused_as_recording(options_.file, "run")) return kBadInput;
     if (!out_.empty() && out_.extension() != ".topple") {
       return complain("--out " + out_.string() + ": a recording's name ends in .topple; `topple export` makes other files of it.",
                       kBadInput);
     }
+    if (const std::string why = out_.empty() ? "" : no_place_for(out_); !why.empty()) return complain(why, kFailed);
     if (with_profile_) {
       options_.profile = &profile_;
     }
@@ -94,10 +96,10 @@ class RunVerb final : public Verb {
     if (!recording) {
       return recording.error();
     }
-    if (!file.finish(*recording)) {
-      return complain(*file.error(), kFailed);
-    }
-    print(*recording);
+    const bool whole = file.finish(*recording);
+    if (!whole) complain(file.error()->message + file.what_is_left(), kFailed);
+    print(*recording, whole);
+    if (!whole) return kFailed;
     if (interrupted()) {
       return kInterrupted;
     }
@@ -105,11 +107,12 @@ class RunVerb final : public Verb {
   }
 
  private:
-  void print(const Recording& recording) const {
+  void print(const Recording& recording, bool recorded) const {
     if (json_) {
       nlohmann::ordered_json json = summary_json(recording);
-      json["recording"] = out_.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(out_.string());
+      json["recording"] = out_.empty() || !recorded ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(out_.string());
       if (with_profile_) {
+        json["lanes"] = profile_.lanes() > 0 ? nlohmann::ordered_json(profile_.lanes()) : nlohmann::ordered_json(nullptr);
         json["profile"] = profile_json();
       }
       std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
@@ -119,12 +122,13 @@ class RunVerb final : public Verb {
     const Cost cost = cost_so_far();
     std::printf("  %-12s %.2f s, %.2f s of processor time, %s of memory\n", "cost", cost.wall, cost.cpu,
                 byte_size(cost.peak_memory).c_str());
-    if (!out_.empty()) {
+    if (!out_.empty() && recorded) {
       std::error_code unknown;
       const std::uintmax_t size = std::filesystem::file_size(out_, unknown);
       std::printf("  %-12s %s, %s\n", "recording", out_.string().c_str(), byte_size(unknown ? 0 : size).c_str());
     }
     if (with_profile_) {
+      if (profile_.lanes() > 0) std::printf("  %-12s %d\n", "lanes", profile_.lanes());
       print_profile();
     }
   }

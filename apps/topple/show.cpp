@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "interrupt.h"
+#include "misuse.h"
 #include "native_run.h"
 #include "page_server.h"
 #include "recording_bytes.h"
@@ -54,7 +55,9 @@ class ShowVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("--port", port_, "The port (default 8017, or the next one that is free)")->type_name("N")->check(CLI::Range(1, 65535));
+    app.add_option("--port", port_, "The port, 1 to 65535 (default 8017, or the next one that is free)")
+        ->type_name("N")
+        ->check(whole_number(1, 65535));
     app.add_flag("--no-browser", no_browser_, "Only print the address");
   }
 

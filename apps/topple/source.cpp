@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "interrupt.h"
+#include "misuse.h"
 #include "progress.h"
 #include "text.h"
 #include "topple/export.h"
@@ -29,10 +30,6 @@ std::string check_duration(const std::string& text) {
   return number && std::isfinite(value) && value > 0.0 ? std::string() : "'" + text + "' is not a time above 0 s";
 }
 
-std::string check_lanes(const std::string& text) {
-  return text == "1" || text == "2" || text == "4" ? std::string() : "'" + text + "' is not 1, 2 or 4";
-}
-
 /// Options that steer a run say nothing about one that was run already.
 std::string useless_option(const RunOptions& options) {
   if (!options.model.empty()) {
@@ -49,23 +46,27 @@ std::string useless_option(const RunOptions& options) {
 void declare(CLI::App& app, RunOptions& options, const std::string& what) {
   app.add_option(what, options.file,
                  what == "LAYOUT" ? "A layout file (.toml)" : "A recording (.topple), or a layout file (.toml), which is run first")
-      ->required();
-  app.add_option("--model", options.model, "The model, over what the layout says (pivot, hinge or rigid)")->type_name("NAME");
+      ->required()
+      ->type_name("");
+  app.add_option("--model", options.model,
+                 "The model (pivot, hinge or rigid), over what the layout says; settings that the layout has for another one do not hold")
+      ->type_name("NAME")
+      ->check(one_of({"pivot", "hinge", "rigid"}));
   app.add_option("--set", options.settings,
                  "A setting over what the layout says, as often as needed: a dotted key of the file, or one of [model]")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->check(CLI::Validator(check_setting, ""));
   app.add_option("--until", options.until, "Stop at this simulated time [s]")->type_name("S")->check(CLI::Validator(check_duration, ""));
-  app.add_option("--threads", options.threads, "Threads; the result does not depend on it")
+  app.add_option("--threads", options.threads, "Threads, 1 to 1024 (default 1); the result does not depend on it")
       ->type_name("N")
-      ->check(CLI::Range(1, kMostThreads));
+      ->check(whole_number(1, kMostThreads));
   app.add_option(
          "--lanes", options.lanes,
          "Numbers that rigid works on side by side (1, 2 or 4); without it as many as the processor has; the result does not depend "
          "on it")
       ->type_name("N")
-      ->check(CLI::Validator(check_lanes, ""));
+      ->check(one_of({"1", "2", "4"}));
 }
 
 std::vector<std::string> overrides_of(const RunOptions& options) {
@@ -114,6 +115,12 @@ bool is_recording(const std::filesystem::path& file) {
   return stream && std::string_view(start.data(), start.size()) == kMagic;
 }
 
+bool refused_as_recording(const std::filesystem::path& file, const std::string& verb) {
+  if (!is_recording(file)) return false;
+  complain(file.string() + " is a recording; " + verb + " takes a layout. `topple replay` runs a recording's recipe again.", kBadInput);
+  return true;
+}
+
 std::expected<Recording, int> open_recording(const RunOptions& options) {
   if (!is_recording(options.file)) {
     std::expected<Recording, int> recording = run_layout(options);
@@ -130,6 +137,11 @@ std::expected<Recording, int> open_recording(const RunOptions& options) {
   Result<Recording> recording = load_recording(options.file);
   if (!recording) {
     return std::unexpected(complain(recording.error(), kBadInput));
+  }
+  if (recording->end().reason == EndReason::running) {
+    complain(
+        formatted("%s was cut off before its run ended; what is there goes up to %.4g s.", options.file.c_str(), recording->duration()),
+        kDone);
   }
   return std::move(*recording);
 }

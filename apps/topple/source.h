@@ -40,6 +40,9 @@ std::expected<Recording, int> run_layout(const RunOptions& options, const Watch&
 /// A run that Ctrl-C cut short is given up: that is what there is no use in plotting.
 std::expected<Recording, int> open_recording(const RunOptions& options);
 
+/// Whether a file is a recording; then it has been said that `verb` takes a layout.
+bool refused_as_recording(const std::filesystem::path& file, const std::string& verb);
+
 bool is_recording(const std::filesystem::path& file);
 
 }  // namespace topple::app

@@ -3,9 +3,11 @@
 #include <fstream>
 
 #include "interrupt.h"
+#include "misuse.h"
 #include "native_run.h"
 #include "page_server.h"
 #include "text.h"
+#include "topple/export.h"
 #include "verb.h"
 
 namespace topple::app {
@@ -21,7 +23,9 @@ class StudioVerb final : public Verb {
 
   void declare(CLI::App& app) override {
     app.add_option("--export", folder_, "Write the page's files into this folder instead of serving them")->type_name("DIR");
-    app.add_option("--port", port_, "The port (default 8017, or the next one that is free)")->type_name("N")->check(CLI::Range(1, 65535));
+    app.add_option("--port", port_, "The port, 1 to 65535 (default 8017, or the next one that is free)")
+        ->type_name("N")
+        ->check(whole_number(1, 65535));
   }
 
   int run() override {
@@ -46,6 +50,9 @@ class StudioVerb final : public Verb {
 
   int write(const Site& site) const {
     std::error_code problem;
+    if (fs::exists(folder_, problem) && !fs::is_directory(folder_, problem)) {
+      return complain("--export " + folder_.string() + ": is a file; name a folder.", kBadInput);
+    }
     if (fs::exists(folder_, problem) && !fs::is_empty(folder_, problem) && !fs::is_regular_file(folder_ / "index.html", problem)) {
       return complain(
           "--export " + folder_.string() + ": the folder holds other things; name one that is new, empty, or an export of before.",
@@ -54,6 +61,7 @@ class StudioVerb final : public Verb {
     std::uintmax_t bytes = 0;
     std::size_t files = 0;
     fs::create_directories(folder_, problem);
+    if (problem) return complain("--export " + folder_.string() + ": cannot be made: " + problem.message(), kFailed);
     // Empty, so that a server has an answer where the page asks; what somebody has put there stays.
     for (const char* place : {"recording.topple", "summary.json"}) {
       if (!fs::exists(folder_ / place, problem)) std::ofstream(folder_ / place, std::ios::binary);
@@ -62,10 +70,7 @@ class StudioVerb final : public Verb {
       if (address == "/") continue;  // index.html again
       const fs::path file = folder_ / address.substr(1);
       fs::create_directories(file.parent_path(), problem);
-      std::ofstream stream(file, std::ios::binary);
-      stream << content.bytes;
-      stream.close();
-      if (!stream) return complain(file.string() + " cannot be written.", kFailed);
+      if (const Result<void> written = save_bytes(content.bytes, file); !written) return complain(written.error(), kFailed);
       bytes += content.bytes.size();
       ++files;
     }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "interrupt.h"
+#include "misuse.h"
 #include "text.h"
 #include "topple/validation.h"
 #include "verb.h"
@@ -90,11 +91,13 @@ class ValidateVerb final : public Verb {
   const char* example() const override { return "topple validate --quick"; }
 
   void declare(CLI::App& app) override {
-    app.add_option("NAME", config_.names, "Only these sources (folders of validation/)");
+    app.add_option("NAME", config_.names, "Only these sources (folders of validation/)")->type_name("");
     app.add_flag("--quick", config_.quick, "Only what takes seconds; the rest is left out");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
     app.add_option("--html", page_, "Write the page and its figures into this folder")->type_name("DIR");
-    app.add_option("--threads", config_.threads, "Runs at the same time")->check(CLI::Range(1, 256))->capture_default_str();
+    app.add_option("--threads", config_.threads, "Runs at the same time, 1 to 256 (default 1)")
+        ->type_name("N")
+        ->check(whole_number(1, 256));
     app.add_flag("--fresh", config_.fresh, "Run everything again, whatever is kept");
     app.add_option("--kept", kept_, "Where finished runs are kept (default: in ~/.cache/topple)")->type_name("FILE");
     app.add_option("--sources", sources_, "The folder of the sources (default: validation)")->type_name("DIR");
@@ -115,7 +118,11 @@ class ValidateVerb final : public Verb {
     });
     counter.clear();
     if (!ran) return complain(ran.error(), kFailed);
-    if (!*ran) return complain("Interrupted; what was run is kept in " + config_.kept.string() + ".", kInterrupted);
+    const std::string& not_kept = validation->not_kept();
+    if (!not_kept.empty()) complain(not_kept, kDone);
+    if (!*ran)
+      return complain(not_kept.empty() ? "Interrupted; what was run is kept in " + config_.kept.string() + "." : "Interrupted.",
+                      kInterrupted);
     if (!page_.empty()) {
       if (const Result<void> written = validation->write_page(page_); !written) return complain(written.error(), kFailed);
       std::fprintf(stderr, "Wrote %s\n", (page_ / "index.html").string().c_str());

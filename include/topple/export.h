@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "topple/measure.h"
@@ -33,6 +34,9 @@ class RecordingFile {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Writes any file; one of that name stays as it was until the new one is whole.
+Result<void> save_bytes(std::string_view bytes, const std::filesystem::path& path);
 
 Result<void> save_recording(const Recording& recording, const std::filesystem::path& path);
 Result<void> export_knots_csv(const Recording& recording, const std::filesystem::path& path);

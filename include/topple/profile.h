@@ -44,6 +44,10 @@ class Profile {
   /// Of the stages that the whole is made of [s].
   double time() const;
 
+  /// Numbers that the model works on side by side; 0: it has no choice of them.
+  int lanes() const { return lanes_; }
+  void name_lanes(int lanes) { lanes_ = lanes; }
+
   /// May be called by several threads at once.
   void add(Stage stage, std::chrono::steady_clock::duration time) {
     Sum& sum = sums_[static_cast<std::size_t>(stage)];
@@ -57,6 +61,7 @@ class Profile {
     std::atomic<std::int64_t> nanoseconds = 0;
   };
   std::array<Sum, static_cast<std::size_t>(Stage::kCount)> sums_;
+  int lanes_ = 0;
 };
 
 /// Adds the time from here to the end of its block to a stage; without a profile it costs a comparison.

@@ -21,6 +21,9 @@ Result<std::unique_ptr<Model>> make_model(const Layout& layout, const ModelConfi
 /// "pivot".
 std::string model_name(const ModelConfig& config);
 
+/// The most numbers that `rigid` can work on side by side here: what RigidConfig::lanes = 0 takes.
+int most_lanes();
+
 /// How far a run has come.
 struct RunProgress {
   std::int64_t bricks = 0;

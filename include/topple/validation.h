@@ -75,6 +75,9 @@ class Validation {
   /// True when all was run, false when it was stopped.
   Result<bool> run(const Watch& watch);
 
+  /// After run(): why not all finished runs are kept, as on a full disk; empty if they are.
+  const std::string& not_kept() const;
+
   /// After run(): in the order of the page.
   std::span<const SourceReport> reports() const;
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 
 namespace topple {
@@ -71,6 +72,26 @@ bool ended_well(pid_t child) {
     }
   }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// gnuplot says nothing of a full disk and ends well, but then the end of the picture is not there.
+bool is_whole(const fs::path& picture, std::string_view ending) {
+  const std::string_view mark = ending == ".svg" ? "</svg>" : ending == ".png" ? "IEND" : "%%EOF";
+  std::array<char, 64> last{};
+  std::ifstream stream(picture, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream.tellg();
+  const std::streamoff read = std::min(size, static_cast<std::streamoff>(last.size()));
+  stream.seekg(size - read);
+  stream.read(last.data(), read);
+  return stream && read > 0 && std::string_view(last.data(), static_cast<std::size_t>(read)).find(mark) != std::string_view::npos;
+}
+
+/// Why a file takes no more bytes; empty if it takes them.
+std::string full(std::FILE* file) {
+  const std::array<char, 4096> some{};
+  std::fseek(file, 0, SEEK_END);
+  const bool taken = std::fwrite(some.data(), 1, some.size(), file) == some.size() && std::fflush(file) == 0;
+  return taken ? std::string() : std::string(std::strerror(errno)) + ".";
 }
 
 /// Keeps of each bucket of a long curve its first, lowest, highest and last point.
@@ -187,7 +208,7 @@ Result<void> draw(const GnuplotScript& script, const fs::path& path) {
   };
   if (input == nullptr || errors == nullptr || std::fputs(script.text().c_str(), input.get()) < 0 || std::fflush(input.get()) != 0 ||
       std::fseek(input.get(), 0, SEEK_SET) != 0) {
-    return give_up("there is no room for scratch files.");
+    return give_up("its scratch files in " + std::string(P_tmpdir) + " cannot be written: " + std::strerror(errno) + ".");
   }
   pid_t child = 0;
   if (const int problem = start_gnuplot(child, fileno(input.get()), fileno(output.get()), fileno(errors.get())); problem != 0) {
@@ -198,8 +219,9 @@ Result<void> draw(const GnuplotScript& script, const fs::path& path) {
     return give_up("gnuplot says: " + first_words(errors.get()));
   }
   std::error_code problem;
-  if (fs::file_size(unfinished, problem) == 0 || problem) {
-    return give_up("gnuplot gave no picture. " + first_words(errors.get()));
+  if (!is_whole(unfinished, path.extension().string())) {
+    const std::string why = full(output.get());
+    return give_up(!why.empty() ? why : "gnuplot gave no whole picture. " + first_words(errors.get()));
   }
   fs::rename(unfinished, path, problem);
   return problem ? give_up(problem.message() + ".") : Result<void>();

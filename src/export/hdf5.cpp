@@ -52,9 +52,13 @@ void column(Writer& file, const std::string& name, std::string_view unit, std::s
   std::vector<T> numbers;
   for (std::int64_t i = 0; i < items; ++i) {
     add(i, numbers);
-    if (numbers.size() < static_cast<std::size_t>(kAtOnce) * columns && i + 1 < items) continue;
-    file.append(table, std::span<const T>(numbers));
-    numbers.clear();
+    const bool last = i + 1 == items;
+    if (numbers.size() < static_cast<std::size_t>(kAtOnce) * columns && !last) continue;
+    // In whole chunks, so that none is written twice.
+    const std::size_t chunk = hdf5::kRowsInChunk * columns;
+    const std::size_t now = last ? numbers.size() : numbers.size() / chunk * chunk;
+    file.append(table, std::span<const T>(numbers).first(now));
+    numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(now));
   }
 }
 
@@ -176,7 +180,10 @@ Result<void> export_hdf5(const Recording& recording, const std::filesystem::path
   if (std::filesystem::is_directory(path, code)) return failure(path.string() + ": is a directory, not a file to write");
   const std::filesystem::path part = part_of(path);
   auto file = Writer::create(part);
-  if (!file) return std::unexpected(file.error());
+  if (!file) {
+    std::filesystem::remove(part, code);
+    return failure(path.string() + ": " + file.error().message);
+  }
   write_recipe(*file, recording);
   write_kinds(*file, recording.layout());
   write_bricks(*file, recording.layout());

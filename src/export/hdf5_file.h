@@ -3,6 +3,7 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -13,6 +14,8 @@
 #include "topple/base.h"
 
 namespace topple::hdf5 {
+
+inline constexpr std::size_t kRowsInChunk = 4096;  ///< Written and compressed at once.
 
 /// What HDF5 knows by a number, closed when it goes.
 class Handle {
@@ -81,6 +84,9 @@ class Writer {
   void append_raw(const Handle& table, hid_t type, const void* numbers, std::size_t count);
   void attribute_raw(const std::string& object, const std::string& name, hid_t type, const void* number);
   void expect(bool done, const std::string& what);
+  int* descriptor() const;
+  void drain() const;
+  bool flush() const;
 
   Handle file_;
   std::string failed_;  // What could not be written first.

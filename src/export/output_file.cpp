@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "topple/export.h"
+
 namespace topple {
 
 std::filesystem::path part_of(const std::filesystem::path& path) {
@@ -55,6 +57,13 @@ Result<void> OutputFile::finish() {
   std::filesystem::rename(part_, path_, code);
   if (code) return failure(path_.string() + ": cannot be given its name: " + code.message());
   return {};
+}
+
+Result<void> save_bytes(std::string_view bytes, const std::filesystem::path& path) {
+  Result<OutputFile> file = OutputFile::create(path, OutputFile::Unfinished::removed);
+  if (!file) return std::unexpected(file.error());
+  if (Result<void> written = file->write(bytes); !written) return written;
+  return file->finish();
 }
 
 }  // namespace topple

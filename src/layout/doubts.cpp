@@ -197,10 +197,10 @@ class WaveWalk {
     const BrickId from = inside ? brick - 1 : nearest(brick);
     if (from == kNoBrick) {
       return {Doubt::Kind::no_neighbour, brick, kNoBrick, 0.0,
-              sentence("no brick near " + brick_words(brick) + " (" + part(brick).name + ") falls towards it")};
+              sentence("no brick near " + brick_words(brick) + " (part: " + part(brick).name + ") falls towards it")};
     }
     const Way way = reach_.way(from, brick);
-    const std::string pair = brick_words(from) + " and " + std::to_string(brick);
+    const std::string pair = "bricks " + std::to_string(from) + " and " + std::to_string(brick);
     if (!way.ahead)
       return {Doubt::Kind::no_neighbour, brick, from, 0.0, sentence(brick_words(from) + " falls away from " + std::to_string(brick))};
     if (way.miss > 0.0)
@@ -261,9 +261,9 @@ class WaveWalk {
 std::vector<Doubt> find_doubts(const Layout& layout, std::size_t most) {
   std::vector<Doubt> doubts;
   for (const OverlappingPair& pair : find_overlaps(layout, most)) {
-    doubts.push_back(
-        {Doubt::Kind::overlap, pair.second, pair.first, pair.depth,
-         sentence(brick_words(pair.first) + " and " + std::to_string(pair.second) + " overlap by " + length_words(pair.depth))});
+    doubts.push_back({Doubt::Kind::overlap, pair.second, pair.first, pair.depth,
+                      sentence("bricks " + std::to_string(pair.first) + " and " + std::to_string(pair.second) + " overlap by " +
+                               length_words(pair.depth))});
   }
   if (layout.bricks.empty()) return doubts;
   if (layout.pushes.empty()) {

@@ -83,12 +83,31 @@ void apply(Node& root, std::string_view text, const Place& place, Problems& prob
   node->place = {old.line, old.column, place.override_index};
 }
 
+/// The table of [model]; null where there is none.
+Table* model_of(Node& root) {
+  auto* top = std::get_if<Table>(&root.value);
+  Node* model = top == nullptr ? nullptr : find_member(*top, "model");
+  return model == nullptr ? nullptr : std::get_if<Table>(&model->value);
+}
+
+/// What [model] names; empty where it names nothing.
+std::string named_model(Node& root) {
+  const Table* model = model_of(root);
+  const Node* name = model == nullptr ? nullptr : find_member(*model, "name");
+  const auto* text = name == nullptr ? nullptr : std::get_if<std::string>(&name->value);
+  return text == nullptr ? std::string() : *text;
+}
+
 }  // namespace
 
 void apply_overrides(Node& root, std::span<const std::string> overrides, Problems& problems) {
+  const std::string named = named_model(root);
   for (std::size_t i = 0; i < overrides.size(); ++i) {
     apply(root, overrides[i], {.line = 0, .column = 0, .override_index = static_cast<std::int32_t>(i)}, problems);
   }
+  // The settings beside the name are for the model that the file names: another one neither knows them nor wants their time step.
+  if (named.empty() || named_model(root) == named) return;
+  if (Table* model = model_of(root)) std::erase_if(*model, [](const KeyedNode& member) { return member.node.place.override_index < 0; });
 }
 
 }  // namespace topple

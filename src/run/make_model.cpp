@@ -9,6 +9,7 @@
 #include "layout/text.h"
 #include "model/hinge/hinge_model.h"
 #include "model/pivot/pivot_model.h"
+#include "model/rigid/lane_kernels.h"
 #include "model/rigid/rigid_model.h"
 #include "topple/run.h"
 
@@ -176,5 +177,7 @@ Result<std::unique_ptr<Model>> make_model(const Layout& layout, const ModelConfi
 std::string model_name(const ModelConfig& config) {
   return std::string(std::visit([](const auto& chosen) { return name_of(chosen); }, config));
 }
+
+int most_lanes() { return rigid::lane_kernels(0)->lanes; }
 
 }  // namespace topple

@@ -34,9 +34,13 @@ bool read_line(const std::string& line, std::map<std::string, Outcome>& runs) {
 Result<KeptRuns> KeptRuns::open(const std::filesystem::path& path, bool fresh) {
   KeptRuns kept;
   if (path.empty()) return kept;
+  kept.path_ = path;
   std::error_code problem;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
   bool whole = true;
+  // Kept runs are lines of JSON; whatever else somebody names here by mistake is not written into.
+  if (const int first = std::ifstream(path).get(); first != std::char_traits<char>::eof() && first != '{')
+    return failure("Finished runs cannot be kept in " + path.string() + ": it holds something else.");
   if (!fresh) {
     std::ifstream stream(path);
     for (std::string line; std::getline(stream, line);) {
@@ -66,8 +70,8 @@ void KeptRuns::add(const std::string& name, const Outcome& outcome) {
   runs_[name] = outcome;
   if (file_ == nullptr) return;
   const std::string line = Json{{"run", name}, {"numbers", outcome.numbers}, {"profile", outcome.profile}}.dump() + "\n";
-  std::fputs(line.c_str(), file_.get());
-  std::fflush(file_.get());
+  if (std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0) return;
+  problem_ = "Finished runs cannot be kept in " + path_.string() + ": " + std::strerror(errno) + ".";
 }
 
 }  // namespace topple::validation

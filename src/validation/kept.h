@@ -22,6 +22,7 @@ class KeptRuns {
 
   std::optional<Outcome> find(const std::string& name) const;
   void add(const std::string& name, const Outcome& outcome);
+  const std::string& problem() const { return problem_; }  ///< Why some of them are not on disk; empty if all are.
 
  private:
   struct Close {
@@ -29,6 +30,8 @@ class KeptRuns {
   };
   std::unique_ptr<std::FILE, Close> file_;
   std::map<std::string, Outcome> runs_;
+  std::filesystem::path path_;
+  std::string problem_;
 };
 
 }  // namespace topple::validation

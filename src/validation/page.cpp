@@ -6,7 +6,7 @@
 #include <string>
 
 #include "export/gnuplot.h"
-#include "export/output_file.h"
+#include "topple/export.h"
 #include "validation/figure.h"
 #include "validation/page_style.h"
 
@@ -178,13 +178,6 @@ std::string overview(std::span<const SourceReport> reports) {
   return table({"", "Source", "Verdicts", "Claims that hold"}, rows);
 }
 
-Result<void> write_text(const fs::path& path, const std::string& text) {
-  Result<OutputFile> file = OutputFile::create(path, OutputFile::Unfinished::removed);
-  if (!file) return std::unexpected(file.error());
-  if (auto written = file->write(std::string_view(text)); !written) return written;
-  return file->finish();
-}
-
 }  // namespace
 
 Result<void> write_page(std::span<const Judged> all, std::span<const SourceReport> reports, const fs::path& folder) {
@@ -199,7 +192,7 @@ Result<void> write_page(std::span<const Judged> all, std::span<const SourceRepor
   }
   page += "<footer>Written by <code>topple validate --html</code>, Topple " + std::string(TOPPLE_VERSION) +
           ". Every number and figure on this page comes from that command.</footer>\n</main>\n</body>\n</html>\n";
-  return write_text(folder / "index.html", page);
+  return save_bytes(page, folder / "index.html");
 }
 
 }  // namespace topple::validation

@@ -223,6 +223,8 @@ Result<bool> Validation::run(const Watch& watch) {
   return true;
 }
 
+const std::string& Validation::not_kept() const { return state_->kept.problem(); }
+
 std::span<const SourceReport> Validation::reports() const { return state_->reports; }
 
 Result<void> Validation::write_page(const fs::path& folder) const {

@@ -58,4 +58,21 @@ TEST_CASE("an override cannot smuggle anything in besides its value") {
   CHECK(wrong({"title=" + std::string(50, '[')}) == "--set title: nested more than 32 brackets deep");
 }
 
+TEST_CASE("settings of [model] are for the model that the file names, those of --set for the one that is chosen") {
+  const auto settings = [](std::string_view model, const std::vector<std::string>& overrides) {
+    const auto layout = read_layout(std::string(kFile) + std::string(model), "t.toml", overrides);
+    REQUIRE(layout.has_value());
+    std::string words;
+    for (const Setting& setting : layout->model) words += setting.key + " ";
+    return words;
+  };
+  constexpr std::string_view kPivot = "[model]\nname = \"pivot\"\ntime_step_s = 0.001\nhit = \"same\"\n";
+  CHECK(settings(kPivot, {}) == "hit name time_step_s ");
+  CHECK(settings(kPivot, {"model.name=pivot"}) == "hit name time_step_s ");
+  CHECK(settings(kPivot, {"model.name=rigid"}) == "name ");
+  CHECK(settings(kPivot, {"time_step_s=0.002", "model.name=rigid"}) == "name time_step_s ");
+  CHECK(settings(kPivot, {"model.name=rigid", "model.name=pivot"}) == "hit name time_step_s ");
+  CHECK(settings("[model]\ntime_step_s = 0.001\n", {"model.name=hinge"}) == "time_step_s name ");  // It names none.
+}
+
 }  // namespace topple

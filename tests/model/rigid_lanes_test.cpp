@@ -364,6 +364,19 @@ TEST_CASE("rigid: a number of lanes that there is not is refused in words") {
   }
   for (const LaneKernels* kernels : all_lanes()) CHECK(make_model(layout, RigidConfig{.lanes = kernels->lanes}).has_value());
   CHECK(lane_kernels(0)->lanes == all_lanes().back()->lanes);
+  CHECK(most_lanes() == lane_kernels(0)->lanes);
+}
+
+TEST_CASE("rigid: a processor without AVX2 takes two lanes, and is told so where four are asked for") {
+  CHECK(lane_kernels(0, false) == lane_kernels(2));
+  CHECK(lane_kernels(4, false) == nullptr);
+  CHECK(no_such_lanes(4, false) ==
+        "lanes: 4 is not a number of lanes that this processor has; it must be 1 or 2, or be left out for as many as it has.");
+  if (has_four_lanes()) {
+    CHECK(lane_kernels(0) == lane_kernels(4));
+    CHECK(no_such_lanes(3) ==
+          "lanes: 3 is not a number of lanes that this processor has; it must be 1, 2 or 4, or be left out for as many as it has.");
+  }
 }
 
 }  // namespace topple::rigid

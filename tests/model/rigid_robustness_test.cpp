@@ -9,8 +9,9 @@ using namespace topple::test;
 
 namespace {
 
-// 729 rows of 25: everything with everything; gravity and push go round, so that every pair of values comes up.
-std::vector<SweptRow> all_rows() {
+// 729 rows of 25: everything with everything; gravity and push go round, so that every pair of values comes up. Pushed harder by a share of
+// some billionths, as a push that is known to six digits may be, each of them is another run: what follows from two hits grows.
+std::vector<SweptRow> all_rows(double harder = 0.0) {
   constexpr std::array<double, 5> kGravities{1.0, 0.1, 10.0, 1.0, 1.0};
   constexpr std::array<double, 4> kPushes{1.5, 3.0, 1.05, 0.9};
   std::vector<SweptRow> rows;
@@ -26,7 +27,7 @@ std::vector<SweptRow> all_rows() {
                     .gap = digit(1, {0.05, 0.34, 0.85}),
                     .thickness = digit(0, {0.5, 0.15625, 0.05}),
                     .gravity = kGravities[turn % kGravities.size()],
-                    .push = kPushes[turn % kPushes.size()],
+                    .push = kPushes[turn % kPushes.size()] * (1.0 + harder),
                     .line = static_cast<Line>(i / 243)});
   }
   return rows;
@@ -70,6 +71,8 @@ TEST_CASE("rigid: rows that made energy once or let bricks through do so no more
     CHECK(run.energy_rise < 0.001);
     CHECK(run.overlap < 0.02);
   }
+  // A drift was cut short four hundred times at one moment, by a point that only changed its name, and then no impact was located any more.
+  CHECK(run_swept(all_rows(3e-9)[245], kUntil).overlap < 0.02);
 }
 
 // A brick that comes to rest and is struck in the same step counted as one that rests, and again whenever it did.
@@ -84,11 +87,12 @@ TEST_CASE("rigid: when all is at rest the potential energy is that of where the 
   }
 }
 
-// build/release/test_model --no-skip --test-case="*whole sweep*" prints every row that breaks a law, and how many there are.
-TEST_CASE("rigid: the whole sweep of rows" * doctest::skip()) {
+namespace {
+
+// Prints every row that breaks a law, and how many there are.
+void sweep(const std::vector<SweptRow>& rows) {
   int ends = 0, keep_energy = 0, stay_apart = 0, finite = 0;
   double most_rise = 0.0, most_overlap = 0.0;
-  const std::vector<SweptRow> rows = all_rows();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const SweptRun run = run_swept(rows[i], kUntil);
     const Verdict verdict = judge(run);
@@ -105,4 +109,14 @@ TEST_CASE("rigid: the whole sweep of rows" * doctest::skip()) {
   std::printf("of %zu rows %d are finite, %d end, %d keep their energy (worst %.2f %%), %d stay out of each other (worst %.1f %%)\n",
               rows.size(), finite, ends, keep_energy, 100.0 * most_rise, stay_apart, 100.0 * most_overlap);
   CHECK(finite == static_cast<int>(rows.size()));
+}
+
+}  // namespace
+
+// build/release/test_model --no-skip --test-case="*whole sweep*"
+TEST_CASE("rigid: the whole sweep of rows" * doctest::skip()) { sweep(all_rows()); }
+
+// build/release/test_model --no-skip --test-case="*sweep three times*"
+TEST_CASE("rigid: the sweep three times more, each time pushed a billionth harder" * doctest::skip()) {
+  for (const double harder : {1e-9, 2e-9, 3e-9}) sweep(all_rows(harder));
 }

@@ -6,7 +6,7 @@ import unittest
 import xml.etree.ElementTree
 import zlib
 
-from program import ROW, ProgramTest, topple
+from program import ENDLESS, ROW, ProgramTest, topple
 
 
 def edited(recording, old, new):
@@ -92,6 +92,19 @@ class Export(ProgramTest):
 
     def test_a_place_that_cannot_be_written_is_exit_code_1(self):
         self.fails(1, "export", self.record(), "-o", self.folder / "none" / "a.csv", says="none")
+
+    def test_a_place_that_cannot_be_written_is_told_before_the_run(self):
+        layout = self.write("row.toml", ROW)
+        for verb, name in [("export", "a.csv"), ("plot", "a.svg"), ("render", "a.mp4")]:
+            with self.subTest(verb=verb):
+                self.fails(1, verb, layout, *ENDLESS, "-o", self.folder / "none" / name, says="cannot be written: there is no folder .*none")
+
+    def test_a_recording_that_was_cut_off_says_how_far_it_goes(self):
+        whole = self.record(ROW.replace("count = 12", "count = 100")).read_bytes()
+        cut = self.folder / "cut.topple"
+        cut.write_bytes(whole[: len(whole) * 9 // 10])
+        result = self.succeeds("export", cut, "-o", self.folder / "cut.csv")
+        self.assertRegex(result.stderr, r"cut\.topple was cut off before its run ended; what is there goes up to [\d.]+ s\.\n")
 
 
 class Plot(ProgramTest):

@@ -48,6 +48,10 @@ class Run(ProgramTest):
         stages = {row["stage"]: row for row in summary["profile"]}
         self.assertEqual(stages["advance fronts"]["calls"], summary["steps"])
         self.assertEqual(stages["in a plane"]["depth"], 1)
+        self.assertIn(summary["lanes"], (2, 4))
+        self.assertEqual(self.json_of(layout, "--model", "rigid", "--profile", "--lanes", 1)["lanes"], 1)
+        self.assertIsNone(self.json_of(layout, "--model", "pivot", "--profile")["lanes"])
+        self.assertRegex(self.succeeds("run", layout, "--model", "rigid", "--profile", "--lanes", 2).stdout, r"\n  lanes        2\n")
         self.assertRegex(self.succeeds("run", layout, "--model", "pivot", "--profile").stdout, r"stage +calls +time +share\n +step the model +[0-9,]+ ")
 
     def test_a_wave_that_dies_is_no_failure(self):
@@ -67,6 +71,15 @@ class Run(ProgramTest):
         layout = self.write("row.toml", ROW)
         summary = self.json_of(layout, "--model", "pivot", "--set", "row.0.count=7", "--set", "time_step_s=0.001")
         self.assertEqual((summary["model"], summary["bricks"], summary["time_step_s"]), ("pivot", 7, 0.001))
+
+    def test_another_model_than_the_layout_names_has_its_own_settings(self):
+        layout = self.write("row.toml", ROW + '[model]\nname = "pivot"\ntime_step_s = 0.001\nhit = "same"\n')
+        other = self.json_of(layout, "--model", "rigid")
+        self.assertEqual(other["hash"], self.json_of(self.write("plain.toml", ROW), "--model", "rigid")["hash"])
+        self.assertEqual(self.json_of(layout, "--model", "pivot")["time_step_s"], 0.001)
+        recording = self.folder / "row.topple"
+        self.succeeds("run", layout, "--model", "rigid", "--out", recording)
+        self.assertIn(other["hash"], self.succeeds("replay", recording).stdout)
 
     def test_the_summary_for_people_is_on_standard_output(self):
         result = self.succeeds("run", self.write("row.toml", ROW))
@@ -90,7 +103,8 @@ class Run(ProgramTest):
 
     def test_a_recording_cannot_be_run_and_out_must_name_one(self):
         recording = self.record()
-        self.fails(2, "run", recording, says="is a recording")
+        for arguments in [["run"], ["layout"], ["convergence", "-o", self.folder / "a.svg"]]:
+            self.fails(2, arguments[0], recording, *arguments[1:], says=f"is a recording; {arguments[0]} takes a layout")
         self.fails(2, "run", self.folder / "row.toml", "--out", self.folder / "row.csv", says=".topple")
 
     def test_a_place_that_cannot_be_written_is_exit_code_1(self):
@@ -152,6 +166,19 @@ class Layout(ProgramTest):
         summary = json.loads(self.succeeds("layout", self.write("row.toml", ROW), "--json").stdout)
         self.assertEqual((summary["bricks"], summary["kinds"], summary["pushes"]), (12, {"domino": 12}, 1))
         self.assertAlmostEqual(summary["length_m"], 0.396, places=9)
+
+    def test_layout_says_where_the_run_may_stop(self):
+        self.assertNotIn("doubts", self.succeeds("layout", self.write("row.toml", ROW)).stdout)
+        self.assertEqual(json.loads(self.succeeds("layout", self.folder / "row.toml", "--json").stdout)["doubts"], [])
+        wide = self.write("wide.toml", ROW.replace("pitch_mm = 36", "pitch_mm = 60"))
+        self.assertRegex(self.succeeds("layout", wide).stdout, r"\n  doubts       Gap 52.5 mm between bricks 0 and 1 is beyond reach")
+        self.assertEqual(len(json.loads(self.succeeds("layout", wide, "--json").stdout)["doubts"]), 5)
+        still = self.write("still.toml", "[[row]]\ncount = 3\npitch_mm = 24\n")
+        self.assertRegex(self.succeeds("layout", still).stdout, r"\n  doubts       .*push")
+
+    def test_layout_checks_the_settings_of_the_model_too(self):
+        for text, says in [('name = "jelly"', "jelly"), ('name = "hinge"\nhit = "same"', "hit")]:
+            self.fails(2, "layout", self.write("bad.toml", f"{ROW}[model]\n{text}\n"), says=says)
 
     def test_a_bad_layout_is_exit_code_2(self):
         self.fails(2, "layout", self.write("bad.toml", ROW + "count = 3\n"), says="bad.toml")

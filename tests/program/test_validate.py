@@ -30,6 +30,14 @@ class Validate(ProgramTest):
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         self.assertIn("FAILS", result.stdout)
 
+    def test_runs_are_not_kept_in_a_file_that_holds_something_else(self):
+        (self.folder / "kept.jsonl").write_text("My notes\n")
+        for fresh in ([], ["--fresh"]):
+            result = self.validate(*fresh)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("kept.jsonl: it holds something else.", result.stderr)
+            self.assertEqual((self.folder / "kept.jsonl").read_text(), "My notes\n")
+
     def test_an_unknown_source_is_bad_input(self):
         self.assertEqual(topple("validate", "moon", "--sources", SOURCE / "validation", "--kept", self.folder / "k").returncode, 2)
 

@@ -56,4 +56,17 @@ TEST_CASE("a run adds its stages: as many steps as it took, and the same motion 
   CHECK(advanced);
 }
 
+TEST_CASE("a profile names the lanes that a run of rigid chose, and none for a model without them") {
+  const auto lanes_of = [](const char* model, int asked) {
+    const auto layout = read_layout("[[row]]\ncount = 2\npitch_mm = 24\n[model]\nname = \"" + std::string(model) + "\"\n", "row.toml");
+    Profile profile;
+    REQUIRE(simulate(*layout, model_config(*layout).value(), {.lanes = asked, .profile = &profile}).has_value());
+    return profile.lanes();
+  };
+  CHECK(lanes_of("rigid", 0) == most_lanes());
+  CHECK(lanes_of("rigid", 1) == 1);
+  CHECK(lanes_of("rigid", 2) == 2);
+  CHECK(lanes_of("hinge", 0) == 0);
+}
+
 }  // namespace topple

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "model/rigid/contact_row.h"
 #include "model/rigid/plane_law.h"
@@ -33,7 +34,14 @@ struct LaneKernels {
   void (*solve_plane)(const PlaneFactors& of, const double* right, std::size_t from, double* x);
 };
 
-/// For so many lanes, 0: as many as this processor has. Null if it has not so many, or there is no such number.
-const LaneKernels* lane_kernels(int lanes);
+/// Whether this processor has what four lanes need, and they are compiled for it.
+bool has_four_lanes();
+
+/// For so many lanes, 0: as many as the processor has. Null if it has not so many, or there is no such number.
+/// Four: whether it has four; asked as an argument, so that a test can be a processor without them.
+const LaneKernels* lane_kernels(int lanes, bool four = has_four_lanes());
+
+/// Why there are no kernels for so many lanes.
+std::string no_such_lanes(int lanes, bool four = has_four_lanes());
 
 }  // namespace topple::rigid

@@ -9,42 +9,20 @@ namespace topple::rigid {
 
 namespace {
 
-constexpr double kWorst = 0.7;         // States that are wrong by this share of the worst change together. Tuned on the cross-check row.
+constexpr double kWorst = 0.7;         // From a good guess states that are wrong by this share of the worst change together.
 constexpr int kNear = 1;               // That many bricks to each side.
-constexpr int kTrueIterations = 30;    // Of Newton's method with the true law before the convex problem is asked for the states.
+constexpr int kJumps = 8;              // Of Newton's method before the states change one by one.
 constexpr int kRounds = 6;             // Of the convex problem.
 constexpr int kConvexIterations = 40;  // Of Newton's method in one round; it ends by itself.
-
-double dot(const Column<3>& a, const Column<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 inline void add_scaled(Column<3>& out, double scale, const Column<3>& force) {
   for (std::size_t i = 0; i < 3; ++i) out[i] += scale * force[i];
 }
 
-struct Slip {
-  double normal, tangent;
-};
-
-inline Slip rate_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
-  const Column<3>& a = velocity[static_cast<std::size_t>(row.a)];
-  Slip slip{dot(row.normal_a, a), dot(row.tangent_a, a)};
-  if (row.b >= 0) {
-    const Column<3>& b = velocity[static_cast<std::size_t>(row.b)];
-    slip.normal += dot(row.normal_b, b);
-    slip.tangent += dot(row.tangent_b, b);
-  }
-  return slip;
-}
-
-Slip slip_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
-  const Slip rate = rate_of(row, velocity);
-  return {row.bias + rate.normal, row.tangent_bias + rate.tangent};
-}
-
 double sign_of(Grip grip) { return grip == Grip::forward ? 1.0 : -1.0; }
 
 // Impulses that follow from how a point slips, the state that it should be in, and by how much the assumed one is wrong [m/s].
-double settle(PlaneRow& row, const Slip& slip, PointState& should) {
+double settle(PlaneRow& row, const PlaneSlip& slip, PointState& should) {
   const bool pressed = slip.normal < 0.0;
   row.normal = pressed ? -row.normal_stiffness * slip.normal : 0.0;
   const double limit = row.friction * (row.base + row.normal);
@@ -73,7 +51,7 @@ struct Impulse {
 };
 
 // The same for the convex problem: the impulse is the point of the cone of friction nearest to that of two springs.
-Impulse convex_impulse(const PlaneRow& row, const Slip& slip) {
+Impulse convex_impulse(const PlaneRow& row, const PlaneSlip& slip) {
   const double sticking = -row.tangent_stiffness * slip.tangent;
   const Grip grip = slip.tangent > 0.0 ? Grip::forward : Grip::backward;
   if (row.base > 0.0) {
@@ -90,7 +68,7 @@ Impulse convex_impulse(const PlaneRow& row, const Slip& slip) {
   return {normal, -sign_of(grip) * mu * normal, {true, grip}};
 }
 
-bool settle_convexly(PlaneRow& row, const Slip& slip) {
+bool settle_convexly(PlaneRow& row, const PlaneSlip& slip) {
   const Impulse impulse = convex_impulse(row, slip);
   const bool idle = !impulse.state.pressed && row.base == 0.0;
   const bool same = impulse.state.pressed == row.state.pressed && (impulse.state.grip == row.state.grip || idle);
@@ -133,12 +111,34 @@ bool PlaneSolver::solve_system(std::size_t from) {
   return std::isfinite(sum);
 }
 
-// Changes the states that are wrong by more than others near them: all at once they would overshoot. Returns the first body of which the
-// equations have changed.
-std::size_t PlaneSolver::change_the_worst(std::span<PlaneRow> rows) {
+// Returns the first body whose equations have changed.
+std::size_t PlaneSolver::change(PlaneRow& row, const PointState& state) {
+  const PlaneSystem system = matrix_.system(right_);
+  kernels_.add_row(row, false, -1.0, system);
+  row.state = state;
+  kernels_.add_row(row, false, 1.0, system);
+  return static_cast<std::size_t>(row.b < 0 ? row.a : std::min(row.a, row.b));
+}
+
+// Impulses, and which states are wrong, and by how much; whether none is.
+bool PlaneSolver::find_wrong(std::span<PlaneRow> rows) {
+  std::fill(most_wrong_.begin(), most_wrong_.end(), 0.0);
+  bool settled = true;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    wrong_[k] = settle(rows[k], slip_of(rows[k], velocity_), should_[k]);
+    if (wrong_[k] == 0.0) continue;
+    settled = false;
+    for (const int body : {rows[k].a, rows[k].b}) {
+      if (body >= 0) most_wrong_[static_cast<std::size_t>(body)] = std::max(most_wrong_[static_cast<std::size_t>(body)], wrong_[k]);
+    }
+  }
+  return settled;
+}
+
+// Changes the states that are wrong by this share of the worst near them. Returns the first body whose equations have changed.
+std::size_t PlaneSolver::change_wrong(std::span<PlaneRow> rows, double share) {
   const int count = static_cast<int>(most_wrong_.size());
   std::size_t from = most_wrong_.size();
-  const PlaneSystem system = matrix_.system(right_);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (wrong_[k] == 0.0) continue;
     PlaneRow& row = rows[k];
@@ -147,45 +147,34 @@ std::size_t PlaneSolver::change_the_worst(std::span<PlaneRow> rows) {
     for (int i = std::max(low - kNear, 0); i <= std::min(high + kNear, count - 1); ++i) {
       most = std::max(most, most_wrong_[static_cast<std::size_t>(i)]);
     }
-    if (wrong_[k] < kWorst * most) continue;
-    kernels_.add_row(row, false, -1.0, system);
-    row.state = should_[k];
-    kernels_.add_row(row, false, 1.0, system);
-    from = std::min(from, static_cast<std::size_t>(low));
+    if (wrong_[k] >= share * most) from = std::min(from, change(row, should_[k]));
   }
   return from;
 }
 
-// Newton's method with the true law from the states that the rows hold.
-bool PlaneSolver::settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows) {
+// With the true law, from the states that the rows hold: a few jumps of Newton's method, then one change after the other.
+bool PlaneSolver::settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows, Guess guess) {
   should_.resize(rows.size());
   wrong_.resize(rows.size());
   most_wrong_.resize(bodies.size());
   assemble(bodies, rows, Law::true_law);
   std::size_t from = 0;
-  for (int i = 0; i < kTrueIterations; ++i) {
+  for (int i = 1;; ++i) {
     if (!solve_system(from)) return false;
-    std::fill(most_wrong_.begin(), most_wrong_.end(), 0.0);
-    bool settled = true;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      wrong_[k] = settle(rows[k], slip_of(rows[k], velocity_), should_[k]);
-      if (wrong_[k] == 0.0) continue;
-      settled = false;
-      for (const int body : {rows[k].a, rows[k].b}) {
-        if (body >= 0) most_wrong_[static_cast<std::size_t>(body)] = std::max(most_wrong_[static_cast<std::size_t>(body)], wrong_[k]);
-      }
-    }
-    if (settled) return true;
-    from = change_the_worst(rows);
+    if (find_wrong(rows)) return true;
+    if (i == kJumps) break;
+    from = change_wrong(rows, guess == Guess::good ? kWorst : 0.0);
   }
-  return false;
+  if (!follow_path(rows)) return false;
+  find_wrong(rows);
+  return true;
 }
 
-void PlaneSolver::solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows) {
+void PlaneSolver::solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows, Guess guess) {
   velocity_.resize(bodies.size());
   right_.resize(bodies.size());
   shape(bodies.size(), rows);
-  if (!settle_truly(bodies, rows)) {
+  if (!settle_truly(bodies, rows, guess)) {
     for (std::size_t i = 0; i < bodies.size(); ++i) velocity_[i] = {bodies[i].guess.x, bodies[i].guess.z, bodies[i].guess.turn};
     for (PlaneRow& row : rows) {
       row.lagged_slip = std::abs(slip_of(row, velocity_).tangent);
@@ -198,7 +187,7 @@ void PlaneSolver::solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows
       solve_convex(bodies, rows);
       convex_ = velocity_;
       kept_.assign(rows.begin(), rows.end());
-      found = settle_truly(bodies, rows);
+      found = settle_truly(bodies, rows, Guess::good);
       if (found) break;
       std::copy(kept_.begin(), kept_.end(), rows.begin());
       velocity_ = convex_;
@@ -229,7 +218,7 @@ double PlaneSolver::best_share(std::span<const PlaneUnknown> bodies, std::span<c
   }
   ways_.clear();
   for (const PlaneRow& row : rows) {
-    const Slip here = slip_of(row, before_), change = rate_of(row, change_);
+    const PlaneSlip here = slip_of(row, before_), change = rate_of(row, change_);
     ways_.push_back({here.normal, here.tangent, change.normal, change.tangent});
   }
   const auto slope_at = [&](double share) {

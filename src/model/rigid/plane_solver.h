@@ -47,6 +47,11 @@ struct PlaneRow {
   double edge_stiffness = 0.0;  ///< Along an edge of the cone [kg].
 };
 
+/// How fast its two surfaces part and slide, the bias included [m/s].
+struct PlaneSlip {
+  double normal = 0.0, tangent = 0.0;
+};
+
 /// A body that moves: its mass, and its velocity before and after.
 struct PlaneUnknown {
   double mass = 0.0;     ///< [kg]
@@ -57,22 +62,30 @@ struct PlaneUnknown {
 
 /// The law of Coulomb and Signorini, with so little compliance that it is felt only where there are more points than needed: those share
 /// their load in one way. In a plane every point is in one of a few states within which all is linear, so Newton's method ends exactly
-/// when the states that come out are those that went in: mostly after one solution. Where it does not settle, a convex problem is solved
-/// whose friction lets sliding points part as fast as they slide, less what they slid before [Castro2022]: that always succeeds, by
-/// Newton's method with an exact line search; where nothing slides it is the true law, and elsewhere it finds the states.
+/// when the states that come out are those that went in: mostly after one solution. Where eight do not settle it, the states change one by
+/// one along a path that leads from slips that agree with them to those that the equations give [Katzenelson1965]. Where that turns back,
+/// a convex problem is solved whose friction lets sliding points part as fast as they slide, less what they slid before [Castro2022]: that
+/// always succeeds, by Newton's method with an exact line search; where nothing slides it is the true law, and elsewhere it finds the
+/// states.
 class PlaneSolver {
  public:
   explicit PlaneSolver(const LaneKernels& kernels) : kernels_(kernels), matrix_(kernels) {}
+  /// Of the states that the rows hold: from a poor guess all that are wrong change together at first, from a good one only the worst.
+  enum class Guess : std::uint8_t { good, poor };
   /// Overwrites the velocities with those after all impulses, and the rows with the impulses.
-  void solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows);
+  void solve(std::span<PlaneUnknown> bodies, std::span<PlaneRow> rows, Guess guess = Guess::good);
 
  private:
   enum class Law : std::uint8_t { true_law, convex };
   void shape(std::size_t count, std::span<const PlaneRow> rows);
   void assemble(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows, Law law);
   bool solve_system(std::size_t from);
-  std::size_t change_the_worst(std::span<PlaneRow> rows);
-  bool settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
+  std::size_t change(PlaneRow& row, const PointState& state);
+  bool find_wrong(std::span<PlaneRow> rows);
+  std::size_t change_wrong(std::span<PlaneRow> rows, double share);
+  bool settle_truly(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows, Guess guess);
+  void begin_path(std::span<PlaneRow> rows);
+  bool follow_path(std::span<PlaneRow> rows);
   void solve_convex(std::span<const PlaneUnknown> bodies, std::span<PlaneRow> rows);
   double best_share(std::span<const PlaneUnknown> bodies, std::span<const PlaneRow> rows);
 
@@ -83,11 +96,30 @@ class PlaneSolver {
   std::vector<PlaneRow> kept_;
   std::vector<PointState> should_;
   std::vector<double> wrong_, most_wrong_;
+  std::vector<PlaneSlip> held_, wanted_;  // On the path, and where it leads.
   struct Way {
     double normal, tangent;                // Where a search begins [m/s]...
     double change_normal, change_tangent;  // ...and how that changes over its whole way.
   };
   std::vector<Way> ways_;
 };
+
+/// The part of a point's slip that velocities make.
+inline PlaneSlip rate_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
+  const auto product = [](const Column<3>& j, const Column<3>& v) { return j[0] * v[0] + j[1] * v[1] + j[2] * v[2]; };
+  const Column<3>& a = velocity[static_cast<std::size_t>(row.a)];
+  PlaneSlip slip{product(row.normal_a, a), product(row.tangent_a, a)};
+  if (row.b >= 0) {
+    const Column<3>& b = velocity[static_cast<std::size_t>(row.b)];
+    slip.normal += product(row.normal_b, b);
+    slip.tangent += product(row.tangent_b, b);
+  }
+  return slip;
+}
+
+inline PlaneSlip slip_of(const PlaneRow& row, std::span<const Column<3>> velocity) {
+  const PlaneSlip rate = rate_of(row, velocity);
+  return {row.bias + rate.normal, row.tangent_bias + rate.tangent};
+}
 
 }  // namespace topple::rigid

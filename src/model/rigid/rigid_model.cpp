@@ -10,8 +10,8 @@
 
 #include "base/crew.h"
 #include "base/hash.h"
+#include "model/rigid/free_front.h"
 #include "model/rigid/plane_front.h"
-#include "model/rigid/wavefront.h"
 
 namespace topple::rigid {
 
@@ -40,6 +40,7 @@ class RigidModel final : public Model {
     world_.repeats = config.repeats;
     world_.kernels = lane_kernels(config.lanes);
     world_.profile = config.profile;
+    if (config.profile != nullptr) config.profile->name_lanes(world_.kernels->lanes);
     plan_pushes();
     if (config.every_brick_moves) wake_all();
   }
@@ -59,7 +60,7 @@ class RigidModel final : public Model {
   std::size_t free_number();
   Wave& front_of(BrickId brick);
   void join(std::size_t number);
-  Front& general(std::size_t number);
+  FreeFront& general(std::size_t number);
   void join_fronts();
   void part_fronts();
   void straighten(std::size_t number, BrickId row);
@@ -106,7 +107,7 @@ void RigidModel::plan_pushes() {
 
 void RigidModel::wake_all() {
   for (BrickId brick = 0; brick < world_.layout.brick_count(); ++brick) {
-    if (brick == 0) fronts_.push_back(std::make_unique<Front>(world_, 0));
+    if (brick == 0) fronts_.push_back(std::make_unique<FreeFront>(world_, 0));
     fronts_[0]->wake(brick, 0.0);
     fronts_[0]->enter_all();
   }
@@ -124,7 +125,7 @@ Wave& RigidModel::front_of(BrickId brick) {
   if (number != kNoFront) return *fronts_[static_cast<std::size_t>(number)];
   const std::size_t at = free_number();
   if (!put_down_in(plane_of_row(world_, brick), world_, brick)) {
-    fronts_[at] = std::make_unique<Front>(world_, static_cast<std::int32_t>(at));
+    fronts_[at] = std::make_unique<FreeFront>(world_, static_cast<std::int32_t>(at));
   } else {
     fronts_[at] = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(at), brick);
   }
@@ -145,24 +146,24 @@ void RigidModel::begin_pushes(double end) {
 }
 
 // A front that can no longer stay in its plane goes on with six degrees of freedom.
-Front& RigidModel::general(std::size_t number) {
+FreeFront& RigidModel::general(std::size_t number) {
   if (auto* plane = dynamic_cast<PlaneFront*>(fronts_[number].get())) {
     std::vector<HandedBrick> bricks;
     std::vector<ActiveForce> forces;
     plane->hand_over(bricks, forces);
-    auto front = std::make_unique<Front>(world_, static_cast<std::int32_t>(number));
+    auto front = std::make_unique<FreeFront>(world_, static_cast<std::int32_t>(number));
     front->adopt(bricks, forces);
     front->enter_all();
     plane->hand_out(echoes_, echoed_, unseen_);
     fronts_[number] = std::move(front);
   }
-  return static_cast<Front&>(*fronts_[number]);
+  return static_cast<FreeFront&>(*fronts_[number]);
 }
 
 // Takes over every front within reach of this one, and of those in turn.
 void RigidModel::join(std::size_t number) {
   std::vector<std::int32_t> met(fronts_[number]->met().begin(), fronts_[number]->met().end());
-  Front& front = general(number);
+  FreeFront& front = general(number);
   for (std::size_t i = 0; i < met.size(); ++i) {
     const auto other = static_cast<std::size_t>(met[i]);
     if (other == number || fronts_[other] == nullptr) continue;
@@ -187,11 +188,11 @@ void RigidModel::part_fronts() {
   const Timed timed(world_.profile, Stage::part);
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     if (fronts_[i] == nullptr || !fronts_[i]->general()) continue;
-    auto* front = static_cast<Front*>(fronts_[i].get());
+    auto* front = static_cast<FreeFront*>(fronts_[i].get());
     if (!front->may_part()) continue;
     for (int parts = front->find_parts(); parts > 1; --parts) {
       const std::size_t number = free_number();
-      auto part = std::make_unique<Front>(world_, static_cast<std::int32_t>(number));
+      auto part = std::make_unique<FreeFront>(world_, static_cast<std::int32_t>(number));
       front->give_part(parts - 1, *part);
       fronts_[number] = std::move(part);
     }
@@ -202,7 +203,7 @@ void RigidModel::part_fronts() {
 
 void RigidModel::straighten(std::size_t number, BrickId row) {
   std::vector<HandedBrick> bricks;
-  static_cast<Front&>(*fronts_[number]).hand_over(bricks);
+  static_cast<FreeFront&>(*fronts_[number]).hand_over(bricks);
   auto plane = std::make_unique<PlaneFront>(world_, static_cast<std::int32_t>(number), row);
   plane->adopt(bricks);
   plane->enter_all();
@@ -377,18 +378,6 @@ double default_time_step(const Layout& layout) {
   }
   return 0.06 * std::sqrt(longest / layout.gravity);
 }
-
-namespace {
-
-std::string no_such_lanes(int lanes) {
-  std::string allowed = "0 (as many as it has)";
-  for (const int some : {1, 2, 4}) {
-    if (lane_kernels(some) != nullptr) allowed += (some == 1 ? ", " : " or ") + std::to_string(some);
-  }
-  return "lanes: " + std::to_string(lanes) + " is not a number of lanes that this processor has; it must be " + allowed + ".";
-}
-
-}  // namespace
 
 Result<std::unique_ptr<Model>> make_rigid_model(const Layout& layout, const RigidConfig& config) {
   const double most = 4.0 * default_time_step(layout);

@@ -23,7 +23,7 @@ bool heads_along(const RowPlane& plane, double direction) {
 
 RowPlane plane_of_row(const World& world, BrickId brick) {
   const SinCos turn = sin_cos(world.heading(brick));
-  return {world.foot(brick), {turn.cos, turn.sin, 0.0}, {-turn.sin, turn.cos, 0.0}};
+  return {.origin = world.foot(brick), .along = {turn.cos, turn.sin, 0.0}, .across = {-turn.sin, turn.cos, 0.0}};
 }
 
 bool put_down_in(const RowPlane& plane, const World& world, BrickId brick) {
@@ -50,22 +50,22 @@ PlanePose in_plane(const RowPlane& plane, const World& world, BrickId brick, con
   return out;
 }
 
-InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, const Pose& pose, bool rests, double half_width) {
+InPlane locate_in(const RowPlane& plane, const World& world, BrickId brick, const Still& still) {
   const BrickKind& kind = world.kind_of(brick);
-  const PlanePose apart = in_plane(plane, world, brick, pose);
+  const PlanePose apart = in_plane(plane, world, brick, still.pose);
   const double thin = thinnest(kind);
   const bool fits = kind.shape == Shape::box && world.given(brick).foot.z <= 0.0 && heads_along(plane, world.heading(brick));
   InPlane out;
   out.lies = fits && std::abs(apart.lateral) < kInPlane * thin && apart.swing < kInPlane;
-  if (fits && rests) {
+  if (fits && still.rests) {
     out.lies = std::abs(apart.lateral) + norm(half_extents(kind)) * apart.swing < world.tolerances.in_plane * thin;
   }
   out.place = apart.place;
   if (!out.lies) {
     const Vec3 half = half_extents(kind);
-    const Vec3 local = rotate(conjugate(pose.orientation), plane.across);
+    const Vec3 local = rotate(conjugate(still.pose.orientation), plane.across);
     const double reach = std::abs(local.x) * half.x + std::abs(local.y) * half.y + std::abs(local.z) * half.z;
-    out.misses = std::abs(apart.lateral) > half_width + reach + world.tolerances.margin * thin;
+    out.misses = std::abs(apart.lateral) > plane.half_width + reach + world.tolerances.margin * thin;
   }
   return out;
 }

@@ -78,13 +78,30 @@ struct SweepLanes {
     return larger<L>(row.k_nn * __builtin_fabs(n), larger<L>(row.k_aa * __builtin_fabs(s), row.k_cc * __builtin_fabs(t)));
   }
 
+  struct Impulse {
+    double n, s, t;
+  };
+
+  // Gives a point another impulse than it had. Returns the largest change of its velocity.
+  template <bool kPair>
+  static double take(ContactRow& row, PointMotion<L, kPair>& motion, const Impulse& now, double* a, double* b) {
+    double* impulse = numbers<L>(row.impulse);
+    const double n = now.n - impulse[0], s = now.s - impulse[1], t = now.t - impulse[2];
+    impulse[0] = now.n;
+    impulse[1] = now.s;
+    impulse[2] = now.t;
+    motion.push(row.gain, n, s, t);
+    motion.store(a, b);
+    return change_of(row, n, s, t);
+  }
+
   // One point: normal first, then friction with the limit that follows. Returns the largest change of its velocity.
   template <bool kPair>
   static double solve(ContactRow& row, double* a, double* b) {
     PointMotion<L, kPair> motion(a, b);
     double slip[3];
     slip_of<L, kPair>(row, motion, slip);
-    double* impulse = numbers<L>(row.impulse);
+    const double* impulse = numbers<L>(row.impulse);
     const double old_n = impulse[0], old_s = impulse[1], old_t = impulse[2];
     const double n = larger<L>(old_n - row.step_normal * (slip[0] + row.give_normal * old_n), 0.0);
     const double dn = n - old_n;
@@ -106,12 +123,7 @@ struct SweepLanes {
         t = scale * t;
       }
     }
-    impulse[0] = n;
-    impulse[1] = s;
-    impulse[2] = t;
-    motion.push(row.gain, dn, s - old_s, t - old_t);
-    motion.store(a, b);
-    return change_of(row, dn, s - old_s, t - old_t);
+    return take(row, motion, {n, s, t}, a, b);
   }
 
   // The same where friction is the cone: the impulse is the point of the cone nearest to the one that would stop the slip, and sliding
@@ -121,7 +133,7 @@ struct SweepLanes {
     PointMotion<L, kPair> motion(a, b);
     double slip[3];
     slip_of<L, kPair>(row, motion, slip);
-    double* impulse = numbers<L>(row.impulse);
+    const double* impulse = numbers<L>(row.impulse);
     const double old_n = impulse[0], old_s = impulse[1], old_t = impulse[2];
     const double step = 1.0 / (row.k_nn + row.k_aa + row.k_cc + row.give_normal + row.give);
     double n = old_n - step * (slip[0] + row.give_normal * old_n);
@@ -133,12 +145,7 @@ struct SweepLanes {
       s = share * s;
       t = share * t;
     }
-    impulse[0] = n;
-    impulse[1] = s;
-    impulse[2] = t;
-    motion.push(row.gain, n - old_n, s - old_s, t - old_t);
-    motion.store(a, b);
-    return change_of(row, n - old_n, s - old_s, t - old_t);
+    return take(row, motion, {n, s, t}, a, b);
   }
 };
 

@@ -40,10 +40,18 @@ struct HandedBrick {
   bool landed = false;
 };
 
+/// A brick that is hit while it stands or rests, and the one that hits it.
+struct Struck {
+  BrickId brick = kNoBrick, by = kNoBrick;
+};
+
+/// One without force, impulse and point.
+Event plain_event(EventKind kind, double time, BrickId brick, BrickId by);
+
 /// While fronts are advanced they may run side by side: advance() reads the world and writes to the front's own ledger alone.
 class Wave {
  public:
-  explicit Wave(World& world, std::int32_t number) : world_(world), number_(number) {}
+  explicit Wave(World& world, std::int32_t number) : world_(world) { ledger_.front = number; }
   Wave(const Wave&) = delete;
   Wave& operator=(const Wave&) = delete;
   virtual ~Wave() = default;
@@ -67,11 +75,11 @@ class Wave {
   virtual void tell_unseen(std::vector<UnseenMotion>& /*out*/) const {}
   virtual bool general() const = 0;  ///< Six degrees of freedom a brick: its steps are long.
 
-  std::int32_t number() const { return number_; }
-  std::span<const Event> events() const { return events_; }
+  std::int32_t number() const { return ledger_.front; }
+  std::span<const Event> events() const { return ledger_.events; }
   /// What is to be told of motions that were not among those of their steps; empty afterwards.
   void hand_out(std::vector<Echo>& echoes, std::vector<BrickId>& echoed, std::vector<UnseenMotion>& unseen);
-  std::span<const std::int32_t> met() const { return met_; }  ///< Other fronts whose bricks are within reach.
+  std::span<const std::int32_t> met() const { return ledger_.met; }  ///< Other fronts whose bricks are within reach.
 
   // What it did, entered in the world; between steps, and for one front after the other.
   void enter_leavings();
@@ -83,24 +91,20 @@ class Wave {
   virtual void disband() = 0;
 
  protected:
-  /// Whether a brick belongs to this front, in this moment of its step.
-  bool owns(BrickId brick) const {
-    if (world_.front[static_cast<std::size_t>(brick)] == number_) return ledger_.left.empty() || !ledger_.gave_up(brick);
-    return !ledger_.taken.empty() && ledger_.took(brick);
-  }
-  void meet(std::int32_t other);
   virtual bool moves(BrickId brick) const = 0;
+  /// From now on a brick belongs to nobody; whether it belonged to this front.
+  bool disown(BrickId brick);
+  void tell_arrival(BrickId brick, double time);
+  /// A brick comes to rest, fallen or not, on another one or on none; `landed` if that has been told.
+  void tell_rest(BrickId brick, bool fallen, bool landed, BrickId by, double now);
   /// Another front has taken, in the same step, a brick that this one took too.
   virtual void lose(BrickId brick) = 0;
 
   World& world_;
-  std::int32_t number_ = 0;
   Ledger ledger_;
-  std::vector<Event> events_;
   std::vector<Echo> echoes_;
   std::vector<BrickId> echoed_;
   std::vector<UnseenMotion> unseen_;
-  std::vector<std::int32_t> met_;
 };
 
 }  // namespace topple::rigid

@@ -23,6 +23,10 @@ Pose World::standing(BrickId brick) const {
   return standing_pose(kinds[put.kind], units.put_down(put));
 }
 
+void Ledger::meet(std::int32_t other) {
+  if (other != front && std::find(met.begin(), met.end(), other) == met.end()) met.push_back(other);
+}
+
 void Ledger::take(BrickId brick) {
   if (std::erase(left, brick) == 0) taken.push_back(brick);
 }
@@ -33,6 +37,11 @@ void Ledger::leave(BrickId brick) {
 
 bool Ledger::took(BrickId brick) const { return std::find(taken.begin(), taken.end(), brick) != taken.end(); }
 bool Ledger::gave_up(BrickId brick) const { return std::find(left.begin(), left.end(), brick) != left.end(); }
+
+const Ledger::Rest* Ledger::rest_of(BrickId brick) const {
+  const auto found = std::find_if(rested.begin(), rested.end(), [brick](const Rest& rest) { return rest.brick == brick; });
+  return found == rested.end() ? nullptr : &*found;
+}
 
 void World::enter(Ledger& ledger) {
   for (const BrickId brick : ledger.woken) {
@@ -55,6 +64,13 @@ void World::enter(Ledger& ledger) {
   ledger.rested.clear();
   ledger.moves.clear();
   ledger.push_work = 0.0;
+}
+
+Still still(const World& world, const Ledger& ledger, BrickId brick) {
+  const auto at = static_cast<std::size_t>(brick);
+  const Ledger::Rest* rest = ledger.rest_of(brick);
+  if (rest != nullptr) return {rest->pose, true};
+  return {world.pose[at], world.phase[at] == Phase::resting};
 }
 
 double potential_energy(const World& world, BrickId brick, double height) {

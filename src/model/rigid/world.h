@@ -26,17 +26,22 @@ struct Ledger {
     BrickId brick = kNoBrick;
     Pose pose;
   };
-  std::vector<BrickId> taken;  ///< Belong to the front from now on.
-  std::vector<BrickId> left;   ///< Do no longer.
+  std::int32_t front = kNoFront;  ///< Whose it is.
+  std::vector<BrickId> taken;     ///< Belong to the front from now on.
+  std::vector<BrickId> left;      ///< Do no longer.
   std::vector<BrickId> woken;
   std::vector<Rest> rested;
   std::vector<Move> moves;  ///< From cell to cell of the neighbours.
   double push_work = 0.0;
+  std::vector<std::int32_t> met;  ///< Other fronts whose bricks are within reach, until they are joined.
+  std::vector<Event> events;      ///< Of this step, for whom the model tells of it.
 
+  void meet(std::int32_t other);
   void take(BrickId brick);
   void leave(BrickId brick);
   bool took(BrickId brick) const;
   bool gave_up(BrickId brick) const;
+  const Rest* rest_of(BrickId brick) const;  ///< Null if it has not come to rest in this step.
 };
 
 /// Pure numbers that scale with a brick: lengths are fractions of the thinnest side, times of sqrt(height / gravity).
@@ -103,6 +108,20 @@ struct World {
   /// Enters what a front did but for what it took; the ledger is empty afterwards but for that.
   void enter(Ledger& ledger);
 };
+
+/// Where a brick is that does not move: standing or, if it `rests`, fallen.
+struct Still {
+  Pose pose;
+  bool rests = false;
+};
+/// What has come to rest in this step is in the ledger of its front before it is in the world.
+Still still(const World& world, const Ledger& ledger, BrickId brick);
+
+/// Whether a brick belongs to the front of this ledger, in this moment of its step.
+inline bool owns(const World& world, const Ledger& ledger, BrickId brick) {
+  if (world.front[static_cast<std::size_t>(brick)] == ledger.front) return ledger.left.empty() || !ledger.gave_up(brick);
+  return !ledger.taken.empty() && ledger.took(brick);
+}
 
 /// Potential energy of a brick against how it was put down.
 double potential_energy(const World& world, BrickId brick, double height);

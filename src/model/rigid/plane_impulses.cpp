@@ -1,14 +1,7 @@
-// One step of a plane front.
-//
-// Between impacts this is the leapfrog of Størmer and Verlet with one-sided constraints: bricks drift by their velocity in the middle of
-// the step, and one solution of all contacts takes it to the middle of the next one, so that no active point will be closer than touching
-// at that step's end (the curvature of its path included). Bilaterally that is SHAKE, which moves bricks as RATTLE does [Andersen1983] for
-// half the work; it is of second order. Impacts are located inside the step (the drift is cut short where a new point touches), so the
-// order holds across them and the front speed does not lock in to the step. After an impact the leapfrog starts anew with half a kick.
+#include "model/rigid/plane_impulses.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "model/rigid/plane_front.h"
 
 namespace topple::rigid {
 
@@ -28,9 +21,6 @@ constexpr double kOverlapLeft = 0.9;
 
 constexpr int kBends = 3;  // So many times a blow is solved again with the turning that it makes.
 
-// Of a step. Since drifts begin anew at each strike, what a step leaves out does not come out even from strike to strike.
-constexpr double kDrift = 5.0 / 6.0;
-
 constexpr int kFloorOf = 1 << 20;  // In a pattern: the floor.
 
 double response(const PlaneBrick& brick, const Column<3>& j) {
@@ -39,119 +29,17 @@ double response(const PlaneBrick& brick, const Column<3>& j) {
 
 }  // namespace
 
-void PlaneFront::advance(double begin, std::span<const PushMoment> moments) {
-  events_.clear();
-  rested_now_.clear();
-  if (!drift_.under_way) now_ = begin;
-  for (const PushMoment& moment : moments) {
-    go_on_to(moment.time);
-    interrupt();
-    apply(moment);
-  }
-  go_on_to(begin + world_.step);
-}
-
-void PlaneFront::apply(const PushMoment& moment) {
-  planned_for_ = 0.0;
-  energy_law_.forget();
-  if (moment.push != nullptr) return begin_push(*moment.push, moment.time);
-  std::erase_if(forces_, [&](const Force& f) { return f.brick == moment.brick && f.end <= moment.time; });
-  const int place = place_of(moment.brick);
-  if (place >= 0) bricks_[static_cast<std::size_t>(place)].pushed = false;
-}
-
-// Drifts until the one that goes on beyond this moment.
-void PlaneFront::go_on_to(double moment) {
-  while (moving_ > 0) {
-    if (repeat_.on && repeat_to(moment)) return;
-    if (!drift_.under_way) begin_drift(moment);
-    drift_.done = std::min(moment - now_, drift_.cut);
-    if (now_ + drift_.cut > moment + 1e-9 * world_.step) return note_arrivals(drift_.done);
-    end_drift();
-  }
-  now_ = moment;
-}
-
-// Drifts end with the step where its energies are small, or the work of a force must be known.
-bool PlaneFront::keeps_step() const { return moving_ <= kFew || !forces_.empty(); }
-
-double PlaneFront::stride() const { return keeps_step() ? world_.step / (moving_ <= kFew ? kStridesOfFew : 1) : kDrift * world_.step; }
-
-// Elsewhere a drift is equally long wherever it begins, and so after a strike all goes as it went after the strike before.
-void PlaneFront::begin_drift(double moment) {
-  const double left = moment - now_;
-  const double whole = keeps_step() && left > 1e-6 * world_.step ? std::min(stride(), left) : stride();
-  if (std::abs(planned_for_ - whole) > 1e-9 * world_.step) plan(whole, false);
-  drift_ = {.under_way = true, .whole = whole, .cut = whole};
-  if (cuts_ < world_.tolerances.cuts * moving_) {
-    drift_.cut = find_cut(whole);
-  } else {
-    try_drift(whole, whole);
-  }
-  if (even_ > 0) write_down_places();
-}
-
-void PlaneFront::end_drift() {
-  const double whole = drift_.whole, cut = drift_.cut;
-  note_arrivals(cut);
-  const Marks before = marks();
-  accept_drift(cut, whole);
-  drift_ = {};
-  now_ += cut;
-  since_look_ += cut;
-  cuts_ += cut < whole ? 1 : 0;
-  planned_for_ = cut < whole ? 0.0 : planned_for_;
-  struck_now_.clear();
-  const bool fresh = activate_new_points();
-  wake_struck(now_);
-  if (!struck_now_.empty() || (fresh && (cut < whole || closes_fast()))) {
-    take_blow(whole, stride());
-    note_struck(now_);
-    note_landed(now_);
-  } else if (cut == whole) {
-    leap(whole);
-    keep_energy();
-    wake_struck(now_);
-  }
-  if (since_look_ > 0.999 * kDrift * world_.step) look_around();
-  if (even_ > 0) write_down_end(before);
-  if (!struck_now_.empty()) after_strike();
-}
-
-// Where something happens amid a drift that the drift does not know of.
-void PlaneFront::interrupt() {
-  if (repeat_.on) return break_off();
-  if (!drift_.under_way) return;
-  even_ = 0;
-  accept_drift(drift_.done, drift_.whole);
-  activate_new_points();
-  now_ += drift_.done;
-  since_look_ += drift_.done;
-  planned_for_ = 0.0;
-  drift_ = {};
-}
-
-// Once a step, at the end of a drift: who has come to rest, who is near, who has lost what it leans on.
-void PlaneFront::look_around() {
-  retire(now_);
-  list_those_that_strayed();
-  for (PlaneBrick& brick : bricks_) brick.velocity_before = brick.velocity;
-  since_look_ = 0.0;
-  cuts_ = 0;
-  wake_unsupported(now_);
-}
-
-void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
+void PlaneImpulses::make_rows(PointState PlaneMemory::* guess) {
   rows_.clear();
   unknowns_.clear();
   // From the head of the wave backwards: what changes its state is mostly at the tail, and then little has to be factorised anew.
-  for (std::size_t i = bricks_.size(); i-- > 0;) {
-    PlaneBrick& brick = bricks_[i];
+  for (std::size_t i = state_.bricks.size(); i-- > 0;) {
+    PlaneBrick& brick = state_.bricks[i];
     brick.unknown = brick.moving ? static_cast<int>(unknowns_.size()) : -1;
     if (brick.moving) unknowns_.push_back({brick.mass, brick.inertia, {}, {}});
   }
-  for (const int pair : near_pairs_) {
-    const PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
+  for (const int pair : state_.near_pairs) {
+    const PlaneTouch& touch = state_.touch(pair);
     const double nx = touch.now.normal_x, nz = touch.now.normal_z;
     for (int k = 0; k < touch.now.count; ++k) {
       const auto at = static_cast<std::size_t>(k);
@@ -163,7 +51,7 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
       row.point = k;
       double normal = 0.0, tangent = 0.0;
       const auto couple = [&](int place, double side, int& unknown, Column<3>& n, Column<3>& t) {
-        const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+        const PlaneBrick& brick = state_.brick(place);
         unknown = brick.unknown;
         if (!brick.moving) return;
         const double x = point.x - brick.box.place.x, z = point.z - brick.box.place.z;
@@ -194,16 +82,16 @@ void PlaneFront::make_rows(PointState PlaneMemory::* guess) {
 
 // After a drift for `time` no active point will be closer than touching; `after_blow` if the bricks turn as they will after the blow that
 // is planned.
-void PlaneFront::set_bias(double time, bool after_blow) {
+void PlaneImpulses::set_bias(double time, bool after_blow) {
   const double slow = 0.5 * world_.gravity * world_.step;
   for (PlaneRow& row : rows_) {
-    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    const PlaneTouch& touch = state_.touch(row.touch);
     const PlanePoint& point = touch.now.points[static_cast<std::size_t>(row.point)];
     // Second derivative of the distance of the two material points while no force acts [m/s^2]; the normal turns with the brick whose
     // face it is, which adds the last term.
     double bend_x = 0.0, bend_z = 0.0, slip_x = 0.0, slip_z = 0.0;
     const auto bend = [&](int place, double side) {
-      const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+      const PlaneBrick& brick = state_.brick(place);
       const PlaneVec velocity = after_blow ? after_the_blow(brick, time) : brick.velocity;
       const double x = point.x - brick.box.place.x, z = point.z - brick.box.place.z, w = velocity.turn;
       bend_x -= side * w * w * x;
@@ -230,70 +118,75 @@ void PlaneFront::set_bias(double time, bool after_blow) {
 }
 
 // The forces between blows change little, so the velocity at this moment is that of the middle of the drift less what they did before.
-PlaneVec PlaneFront::after_the_blow(const PlaneBrick& brick, double time) {
+PlaneVec PlaneImpulses::after_the_blow(const PlaneBrick& brick, double time) {
   return brick.moving ? brick.middle - (0.5 * time) * brick.acceleration : PlaneVec{};
 }
 
 // A brick that is struck turns at once, and so do the paths of its points bend. Whether that makes a difference.
-bool PlaneFront::bends_otherwise(double time) {
+bool PlaneImpulses::bends_otherwise(double time) {
   compression_ = rows_;
   set_bias(time, true);
   bool otherwise = false;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
-    const double thin = touches_[static_cast<std::size_t>(rows_[k].touch)].thin;
+    const double thin = state_.touch(rows_[k].touch).thin;
     otherwise = otherwise || time * std::abs(rows_[k].bias - compression_[k].bias) > world_.tolerances.bends * thin;
   }
   return otherwise;
 }
 
-void PlaneFront::kick(std::span<PlaneUnknown> unknowns, double time) const {
-  for (PlaneUnknown& unknown : unknowns) unknown.velocity.z -= time * world_.gravity;
-  for (const Force& force : forces_) {
-    const int place = place_of(force.brick);
+void PlaneImpulses::kick(double time) {
+  for (PlaneUnknown& unknown : unknowns_) unknown.velocity.z -= time * world_.gravity;
+  for (const PlaneForce& force : state_.forces) {
+    const int place = state_.place_of(force.brick);
     if (place < 0) continue;
-    const PlaneBrick& brick = bricks_[static_cast<std::size_t>(place)];
+    const PlaneBrick& brick = state_.brick(place);
     if (!brick.moving) continue;
     const double z = -force.x * brick.box.sine + force.z * brick.box.cosine;
-    PlaneVec& velocity = unknowns[static_cast<std::size_t>(brick.unknown)].velocity;
+    PlaneVec& velocity = unknowns_[static_cast<std::size_t>(brick.unknown)].velocity;
     velocity.x += time * force.along / brick.mass;
     velocity.turn += time * force.along * z / brick.inertia;
   }
   for (const PlaneRow& row : rows_) {
-    const PlaneMemory& memory = touches_[static_cast<std::size_t>(row.touch)].memory[static_cast<std::size_t>(row.point)];
+    const PlaneMemory& memory = state_.touch(row.touch).memory[static_cast<std::size_t>(row.point)];
     if (memory.leaning == 0.0) continue;
-    PlaneUnknown& unknown = unknowns[static_cast<std::size_t>(row.a)];
+    PlaneUnknown& unknown = unknowns_[static_cast<std::size_t>(row.a)];
     const double normal = time * memory.leaning, tangent = time * memory.leaning_tangent;
     const auto push = [&](std::size_t i) { return normal * row.normal_a[i] + tangent * row.tangent_a[i]; };
     unknown.velocity = unknown.velocity + PlaneVec{push(0) / unknown.mass, push(1) / unknown.mass, push(2) / unknown.inertia};
   }
 }
 
-void PlaneFront::solve_half_a_kick(double time) {
-  for (const PlaneBrick& brick : bricks_) {
+// Velocities before what acts now, and the first guess of those after it.
+void PlaneImpulses::begin_with(PlaneVec PlaneBrick::* velocity, std::span<PlaneUnknown> unknowns) const {
+  for (const PlaneBrick& brick : state_.bricks) {
     if (!brick.moving) continue;
-    unknowns_[static_cast<std::size_t>(brick.unknown)].velocity = brick.velocity;
-    unknowns_[static_cast<std::size_t>(brick.unknown)].guess = brick.velocity;
+    PlaneUnknown& unknown = unknowns[static_cast<std::size_t>(brick.unknown)];
+    unknown.velocity = unknown.guess = brick.*velocity;
   }
-  kick(unknowns_, 0.5 * time);
+}
+
+void PlaneImpulses::solve_half_a_kick(double time) {
+  begin_with(&PlaneBrick::velocity, unknowns_);
+  kick(0.5 * time);
   solver_.solve(unknowns_, rows_);
-  for (PlaneBrick& brick : bricks_) {
+  for (PlaneBrick& brick : state_.bricks) {
     if (brick.moving) brick.middle = unknowns_[static_cast<std::size_t>(brick.unknown)].velocity;
   }
 }
 
-// Half a kick from the velocities of this moment, for a drift of `time`; together with a blow, if there is one.
-void PlaneFront::plan(double time, bool with_blow, Pattern* pattern) {
+void PlaneImpulses::plan(double time, bool with_blow, BrickId struck) {
   make_rows(&PlaneMemory::kick);
-  const int head = pattern == nullptr ? 0 : place_of(struck_now_.back().brick);
+  Pattern* const pattern = struck == kNoBrick ? nullptr : &state_.strike;
+  const int head = pattern == nullptr ? 0 : state_.place_of(struck);
   if (pattern != nullptr) {
     recall(*pattern, head);
-    last_struck_ = struck_now_.back().brick;
-    since_strike_ = 0;
+    state_.last_struck = struck;
+    state_.since_strike = 0;
   }
   set_bias(time);
   solve_half_a_kick(time);
   for (int i = 0; with_blow && i < kBends && bends_otherwise(time); ++i) solve_half_a_kick(time);
-  planned_for_ = time;
+  state_.planned_for = time;
   if (pattern != nullptr) keep(*pattern, head);
   // What the points do while a blow acts is not what they will do in the next kick.
   remember_impulses(0.5 * time, pattern == nullptr ? &PlaneMemory::kick : &PlaneMemory::blow);
@@ -301,11 +194,11 @@ void PlaneFront::plan(double time, bool with_blow, Pattern* pattern) {
 
 // Along a row each brick is struck as the one before it was: the states of the contacts, counted from the brick that is struck, are the
 // guess for the next time.
-void PlaneFront::recall(const Pattern& pattern, int head, int most) {
+void PlaneImpulses::recall(const Pattern& pattern, int head, int most) {
   std::size_t next = 0;
   for (std::size_t i = rows_.size(); i-- > 0;) {
     PlaneRow& row = rows_[i];
-    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    const PlaneTouch& touch = state_.touch(row.touch);
     const int a = head - touch.a, b = touch.b < 0 ? kFloorOf : head - touch.b;
     const std::uint8_t feature = touch.now.points[static_cast<std::size_t>(row.point)].feature;
     if (head - std::max(touch.a, touch.b) > most) break;
@@ -321,34 +214,28 @@ void PlaneFront::recall(const Pattern& pattern, int head, int most) {
   }
 }
 
-void PlaneFront::keep(Pattern& pattern, int head, int most) const {
+void PlaneImpulses::keep(Pattern& pattern, int head, int most) const {
   pattern.clear();
   for (std::size_t i = rows_.size(); i-- > 0;) {
     const PlaneRow& row = rows_[i];
-    const PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    const PlaneTouch& touch = state_.touch(row.touch);
     if (head - std::max(touch.a, touch.b) > most) break;
     pattern.push_back({head - touch.a, touch.b < 0 ? kFloorOf : head - touch.b,
                        touch.now.points[static_cast<std::size_t>(row.point)].feature, row.state});
   }
 }
 
-// A kick from the middle of a drift of `time` to that of the next whole step; the velocity of this moment lies between.
-void PlaneFront::leap(double time) {
-  const double next = stride();
+void PlaneImpulses::leap(double time, double next) {
   make_rows(&PlaneMemory::kick);
-  const int head = place_of(last_struck_);
-  Pattern* const pattern = head >= 0 && since_strike_ < leaps_.size() ? &leaps_[since_strike_++] : nullptr;
+  const int head = state_.place_of(state_.last_struck);
+  Pattern* const pattern = head >= 0 && state_.since_strike < state_.leaps.size() ? &state_.leaps[state_.since_strike++] : nullptr;
   if (pattern != nullptr) recall(*pattern, head, kLedByHead);
   set_bias(next);
-  for (const PlaneBrick& brick : bricks_) {
-    if (!brick.moving) continue;
-    unknowns_[static_cast<std::size_t>(brick.unknown)].velocity = brick.middle;
-    unknowns_[static_cast<std::size_t>(brick.unknown)].guess = brick.middle;
-  }
-  kick(unknowns_, 0.5 * (time + next));
+  begin_with(&PlaneBrick::middle, unknowns_);
+  kick(0.5 * (time + next));
   solver_.solve(unknowns_, rows_);
   const double share = time / (time + next);
-  for (PlaneBrick& brick : bricks_) {
+  for (PlaneBrick& brick : state_.bricks) {
     if (!brick.moving) continue;
     const PlaneVec& after = unknowns_[static_cast<std::size_t>(brick.unknown)].velocity;
     brick.velocity = brick.middle + share * (after - brick.middle);
@@ -356,15 +243,15 @@ void PlaneFront::leap(double time) {
   }
   if (pattern != nullptr) keep(*pattern, head, kLedByHead);
   remember_impulses(0.5 * (time + next), &PlaneMemory::kick);
-  planned_for_ = next;
+  state_.planned_for = next;
 }
 
 // Keeps what the points carry and do; one that has parted has to come back to touch again.
-void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states) {
+void PlaneImpulses::remember_impulses(double time, PointState PlaneMemory::* states) {
   const double slow = 0.5 * world_.gravity * world_.step;
-  for (const int pair : near_pairs_) touches_[static_cast<std::size_t>(pair)].impulse = 0.0;
+  for (const int pair : state_.near_pairs) state_.touch(pair).impulse = 0.0;
   for (const PlaneRow& row : rows_) {
-    PlaneTouch& touch = touches_[static_cast<std::size_t>(row.touch)];
+    PlaneTouch& touch = state_.touch(row.touch);
     PlaneMemory& memory = touch.memory[static_cast<std::size_t>(row.point)];
     touch.impulse += row.normal;
     memory.overlap *= time > 0.0 ? kOverlapLeft : 1.0;
@@ -378,8 +265,8 @@ void PlaneFront::remember_impulses(double time, PointState PlaneMemory::* states
     if (row.b >= 0) parting += product_of(row.normal_b, unknowns_[static_cast<std::size_t>(row.b)].velocity);
     if (parting > slow) memory.active = false;
   }
-  for (const int pair : near_pairs_) {
-    PlaneTouch& touch = touches_[static_cast<std::size_t>(pair)];
+  for (const int pair : state_.near_pairs) {
+    PlaneTouch& touch = state_.touch(pair);
     touch.load = time > 0.0 ? touch.impulse / time : 0.0;
   }
 }
