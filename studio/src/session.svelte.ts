@@ -12,6 +12,9 @@ import type { Recording } from './recording/types.ts';
 import type { Order } from './recording/worker.ts';
 import type { Theme } from './view/view.ts';
 
+/** Problems of a file that are said at once. */
+const kProblems = 6;
+
 /** What only the page's elements know. */
 export interface Screen {
   /** Null: there is no WebGL. */
@@ -93,9 +96,25 @@ export class Session {
   }
 
   async openFile(file: File): Promise<void> {
-    if (/\.toml$/i.test(file.name)) return this.openLayout(await file.text());
+    if (/\.toml$/i.test(file.name)) return void (await this.takeLayout(await file.text(), file.name));
+    const begins = await file.slice(0, 6).text();
+    if (!/\.topple$/i.test(file.name) && begins !== 'TOPPLE') {
+      this.player.failure = `${file.name} is neither a layout (.toml) nor a recording (.topple).`;
+      return;
+    }
     this.player.summary = null;
     this.open({ bytes: await file.arrayBuffer() });
+  }
+
+  /** Opens what somebody brought, if it is a layout; else says every problem and leaves what is open. @returns Whether it is one. */
+  private async takeLayout(text: string, name: string, promised = ''): Promise<boolean> {
+    const problems = await this.studio.problemsOf(text, name);
+    if (problems.length === 0) this.openLayout(text, promised);
+    else {
+      const more = problems.length > kProblems ? [`and ${problems.length - kProblems} more.`] : [];
+      this.player.failure = [`${name} cannot be opened.`, ...problems.slice(0, kProblems), ...more].join('\n');
+    }
+    return problems.length === 0;
   }
 
   /** Another layout to draw on; the one before can be had back by undo. */
@@ -134,11 +153,11 @@ export class Session {
     try {
       const shared = await readFragment(location.hash);
       if (!shared) return false;
-      this.openLayout(shared.text, shared.hash);
+      if (!(await this.takeLayout(shared.text, 'The layout in this link', shared.hash))) await this.beginDrawing();
       await this.studio.engine.ready.catch((error: Error) => (this.noEngine = error.message));
     } catch (error) {
       await this.beginDrawing();
-      this.player.failure = `${(error as Error).message} Your own layout is untouched.`;
+      this.player.failure = (error as Error).message;
     }
     return true;
   }
@@ -150,8 +169,8 @@ export class Session {
     this.screen.clear();
     stage.replaceFresh(recording);
     this.screen.fit();
-    if (stage.view) stage.view.drawing = this.mode === 'draw';
-    stage.frameAll(true);
+    stage.setDrawing(this.mode === 'draw');
+    stage.frameAll(true, true);
   }
 
   private showLayout(recording: Recording | null): void {
@@ -166,24 +185,37 @@ export class Session {
   setMode(next: Mode, bare = false): void {
     if (this.mode === next) return;
     const { player, stage, studio } = this;
+    if (next === 'compare' && !bare && this.fromElsewhere) {
+      this.takeOver(this.fromElsewhere);
+      void studio.settle().then(() => this.setMode(next, true)); // compared is what the engine has read
+      return;
+    }
     this.mode = next;
     this.screen.clear();
     player.playing = false;
-    if (stage.view) stage.view.drawing = next === 'draw';
+    stage.setDrawing(next === 'draw');
     if (next === 'draw') {
       studio.stop();
-      stage.view?.rig.goBack();
-      if (!bare && !this.finished && player.recording?.recipe.layoutText && player.recording.recipe.model) this.editRecording();
+      if (!bare && this.fromElsewhere) this.editRecording(this.fromElsewhere);
       else if (!bare) this.showLayout(studio.layout?.recording ?? null);
     } else if (next === 'watch' && this.finished) this.showRun(this.finished);
   }
 
-  /** The layout of a recording that came from elsewhere, for drawing on. */
-  private editRecording(): void {
-    const { layoutText, model } = (this.player.recording as Recording).recipe;
-    this.frameNext = true;
+  /** The recipe of a recording that came from elsewhere and says its layout. */
+  private get fromElsewhere(): Recording['recipe'] | null {
+    const recipe = this.player.recording?.recipe;
+    return !this.finished && recipe?.layoutText && recipe.model ? recipe : null;
+  }
+
+  private takeOver({ layoutText, model }: Recording['recipe']): void {
     this.studio.open(layoutText);
-    if (model === 'pivot' || model === 'hinge' || model === 'rigid') this.studio.setModel(model);
+    if (model !== this.studio.model && (model === 'pivot' || model === 'hinge' || model === 'rigid')) this.studio.setModel(model);
+  }
+
+  /** The layout of a recording that came from elsewhere, for drawing on. */
+  private editRecording(recipe: Recording['recipe']): void {
+    this.frameNext = true;
+    this.takeOver(recipe);
     if (this.studio.layout) this.showLayout(this.studio.layout.recording);
   }
 
@@ -206,7 +238,7 @@ export class Session {
     stage.replace(layout.recording);
     this.mode = 'watch';
     this.screen.clear();
-    if (stage.view) stage.view.drawing = false;
+    stage.setDrawing(false);
     requestAnimationFrame(() => requestAnimationFrame(() => stage.closeIn())); // once the view has the size in which it is watched
     player.growing = true;
     player.expected = studio.expected + 0.7; // and a second for what still settles

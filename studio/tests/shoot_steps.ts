@@ -79,6 +79,7 @@ async function steps(size: string, theme: 'light' | 'dark'): Promise<void> {
   await page.evaluate(() => window.topple.choose(12));
   await shoot('09-brick');
   await page.evaluate(() => window.topple.choose(-1));
+  if (phone) await page.getByRole('button', { name: 'Show', exact: true }).click();
   for (const name of ['Hits', 'Trace', 'Ghost']) await page.getByRole('button', { name, exact: true }).click();
   await shoot('10-looks');
   await page.locator('#heat').selectOption('speed');

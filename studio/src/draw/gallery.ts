@@ -21,7 +21,7 @@ const at = (x: number, y: number): { x: number; y: number } => ({ x, y });
 
 function forked(): string {
   const [left, right] = splitArms(at(23 * kPitch, 0), 0, kPitch, kWidth);
-  return file('A fork', rowText(at(0, 0), at(23 * kPitch, 0), style('#d92b2b', '#f0821e'), kPitch), curveText(left, style('#f0821e', '#3faa46')), curveText(right, style('#f0821e', '#1478c8')));
+  return file('A fork', rowText(at(0, 0), at(23 * kPitch, 0), style('#d92b2b', '#f0821e'), kPitch), curveText(left, style('#f0821e', '#f2b928')), curveText(right, style('#f0821e', '#c2185b')));
 }
 
 function essWithSplit(): string {
@@ -30,7 +30,7 @@ function essWithSplit(): string {
   const before = line[line.length - 2];
   const heading = (Math.atan2(end.y - before.y, end.x - before.x) * 180) / Math.PI;
   const [left, right] = splitArms(end, heading, kPitch, kWidth);
-  return file('An S that forks', curveText(line, style('#7832be', '#1478c8')), curveText(left, style('#1478c8', '#17a398')), curveText(right, style('#1478c8', '#f2b928')));
+  return file('An S that forks', curveText(line, style('#7832be', '#1478c8')), curveText(left, style('#1478c8', '#17a398')), curveText(right, style('#1478c8', '#c2185b')));
 }
 
 function flower(): string {
@@ -68,14 +68,14 @@ export const kGallery: Scene[] = [
   { name: 'A straight row', about: 'Fifty dominoes, red to blue: the plainest run there is.', text: file('A straight row', rowText(at(0, 0), at(49 * kPitch, 0), style('#d92b2b', '#2b5bd9'), kPitch)) },
   { name: 'An S that forks', about: 'One wave becomes two.', text: essWithSplit() },
   { name: 'A spiral', about: 'The wave runs inwards until there is no room left.', text: file('A spiral', curveText(spiralPoints(at(0, 0), at(420, 0), 78), style('#7832be', '#f0821e'))) },
-  { name: 'A ring', about: 'Round once, back to where it began.', text: file('A ring', curveText(circlePoints(at(0, 0), at(340, 0), kPitch), style('#17a398', '#d92b2b'))) },
+  { name: 'A ring', about: 'Round once, back to where it began.', text: file('A ring', curveText(circlePoints(at(0, 0), at(340, 0), kPitch), style('#17a398', '#7832be'))) },
   { name: 'A fork', about: 'A row that lets two curves go.', text: forked() },
-  { name: 'A field', about: 'A line along the heads of eight rows lets each go in turn.', text: file('A field', fieldText(at(0, 0), at(520, 560), style('#1478c8', '#f2b928'), kPitch, kWidth)) },
+  { name: 'A field', about: 'A line along the heads of eight rows lets each go in turn.', text: file('A field', fieldText(at(0, 0), at(520, 560), style('#1478c8', '#3faa46'), kPitch, kWidth)) },
   { name: 'A flower', about: 'Six petals in one line.', text: flower() },
   { name: 'Each a third larger', about: 'Six sizes, from 24 to 101 mm: a small push becomes a large one.', text: growing() },
   { name: 'A snake', about: 'Three bends to each side.', text: snake() },
   {
-    name: 'Where it stops', about: 'The third gap is too wide. What would you change?',
-    text: file('Where it stops', rowText(at(0, 0), at(9 * kPitch, 0), style('#d92b2b'), kPitch), rowText(at(10 * kPitch + 32, 0), at(19 * kPitch + 32, 0), style('#f0821e'), kPitch), brickText(at(20 * kPitch + 32, 0), 0, style('#3faa46'))),
+    name: 'Where it stops', about: 'One gap is too wide. What would you change?',
+    text: file('Where it stops', rowText(at(0, 0), at(9 * kPitch, 0), style('#d92b2b'), kPitch), rowText(at(10 * kPitch + 44, 0), at(19 * kPitch + 44, 0), style('#f0821e'), kPitch), brickText(at(20 * kPitch + 44, 0), 0, style('#3faa46'))),
   },
 ];

@@ -8,6 +8,8 @@ import type { Studio } from './studio.svelte.ts';
 /** Bricks' lanes in a spiral stand so far apart [mm]: a fallen brick does not reach the next lane. */
 const kLane = 78;
 const kSnapPixels = 18;
+/** How long a part is that is put down by a key [mm]. */
+const kPutDown = 300;
 
 /** A point that one can pull. */
 export interface Grip {
@@ -195,6 +197,37 @@ export class Hand {
     this.words = '';
     this.caught = null;
     this.grip = null;
+  }
+
+  /** Without a pointer: what the tool draws, in a usual size, on from the end of the last part or in the middle of the view. */
+  putDown(): void {
+    const { studio, stage } = this;
+    const { tool } = studio;
+    const canvas = stage.view?.canvas;
+    if (!canvas || ['select', 'push', 'brush', 'measure'].includes(tool)) return;
+    const end = this.lastEnd();
+    if (tool === 'split') return end ? this.split(end.foot) : undefined;
+    const heading = end ? (end.heading * Math.PI) / 180 : 0;
+    const along = (from: Point, far: number, across = 0): Point => ({
+      x: from.x + far * Math.cos(heading) - across * Math.sin(heading), y: from.y + far * Math.sin(heading) + across * Math.cos(heading),
+    });
+    const middle = this.place(canvas.clientWidth / 2, canvas.clientHeight / 2) ?? { x: 0, y: 0 };
+    const from = end ? along(end.foot, this.pitch) : along(middle, -kPutDown / 2);
+    const to = along(from, kPutDown, tool === 'field' || tool === 'pyramid' ? kPutDown / 2 : 0);
+    this.from = from;
+    this.moved = true;
+    this.stroke = tool === 'curve' ? [from, along(from, kPutDown / 2, kPutDown / 6), to] : this.outline(from, to);
+    this.finishStroke();
+    this.cancel();
+  }
+
+  /** Of the last part that goes somewhere: its last brick. */
+  private lastEnd(): { foot: Point; heading: number } | null {
+    const recording = this.studio.layout?.recording;
+    const part = recording?.parts.at(-1);
+    if (!recording || !part || this.studio.empty) return null;
+    const brick = part.first + part.count - 1;
+    return { foot: this.footOf(brick), heading: (recording.bricks.heading[brick] * 180) / Math.PI };
   }
 
   private finishStroke(): void {

@@ -12,21 +12,41 @@ export interface DrawActions {
   showKeys: () => void;
 }
 
-export const kDrawKeys = {
-  title: 'Drawing',
-  keys: [
-    ...[['V', 'Select'], ['R', 'Row'], ['C', 'Curve'], ['O', 'Circle'], ['S', 'Spiral'], ['Z', 'S'], ['Y', 'Split'], ['B', 'Brick'], ['F', 'Field'], ['W', 'Wall'], ['T', 'Tower'], ['A', 'Pyramid'], ['L', 'Ball'], ['P', 'Push'], ['K', 'Brush'], ['M', 'Measure']].map(([key, does]) => ({ keys: [key], does })),
-    { keys: ['Ctrl', 'Z'], does: 'Undo; with Shift redo' },
-    { keys: ['Ctrl', 'D'], does: 'Duplicate' },
-    { keys: ['Ctrl', 'A'], does: 'Choose all' },
-    { keys: ['X'], does: 'Mirror' },
-    { keys: ['Del'], does: 'Delete' },
-    { keys: ['Q', 'E'], does: 'Turn by 1°; with Shift by 15°' },
-    { keys: ['←', '→', '↑', '↓'], does: 'Move by 1 mm; with Shift by 10 mm' },
-    { keys: ['N'], does: 'Next part' },
-    { keys: ['Space'], does: 'Topple' },
-  ],
-};
+export const kDrawKeys: { title: string; keys: { keys: string[]; does: string }[] }[] = [
+  { title: 'Tools', keys: kTools.map(({ key, name }) => ({ keys: [key], does: name })) },
+  {
+    title: 'Drawing',
+    keys: [
+      { keys: ['Enter'], does: 'Put down what the tool draws, on from the last part' },
+      { keys: ['Shift'], does: 'While dragging: steps of 15°' },
+      { keys: ['Alt'], does: 'While dragging: do not catch on the end of a part' },
+      { keys: ['Esc'], does: 'Leave the tool, choose none' },
+    ],
+  },
+  {
+    title: 'Parts',
+    keys: [
+      { keys: ['N'], does: 'Next part; with Shift the one before' },
+      { keys: ['Ctrl', 'A'], does: 'Choose all' },
+      { keys: ['←', '→', '↑', '↓'], does: 'Move by 1 mm; with Shift by 10 mm' },
+      { keys: ['Q', 'E'], does: 'Turn by 1°; with Shift by 15°' },
+      { keys: ['X'], does: 'Mirror' },
+      { keys: ['Ctrl', 'D'], does: 'Duplicate' },
+      { keys: ['Del'], does: 'Delete' },
+      { keys: ['Ctrl', 'Z'], does: 'Undo; with Shift redo' },
+    ],
+  },
+  {
+    title: 'Page',
+    keys: [
+      { keys: ['Space'], does: 'Topple' },
+      { keys: ['1'], does: 'Over the table: right drag turns, two fingers or the middle button move, wheel zooms' },
+      { keys: ['4'], does: 'From the top' },
+      { keys: ['0'], does: 'Frame all' },
+      { keys: ['?'], does: 'These keys' },
+    ],
+  },
+];
 
 /** @returns Whether the key was one of ours. */
 export function pressDrawKey(event: KeyboardEvent, studio: Studio, stage: Stage, hand: Hand, page: DrawActions): boolean {
@@ -59,6 +79,7 @@ function plain(event: KeyboardEvent, studio: Studio, stage: Stage, hand: Hand, p
   };
   const actions: Record<string, (() => void) | undefined> = {
     ' ': () => page.topple(),
+    Enter: () => hand.putDown(),
     Delete: whenChosen(() => studio.remove()),
     Backspace: whenChosen(() => studio.remove()),
     x: whenChosen(() => studio.mirror()),

@@ -123,3 +123,10 @@ export function setGap(part: Block, gap: number): void {
   part.remove('pitch_mm');
   part.set('gap_mm', gap);
 }
+
+/** Keys of other parts that a part of a name does not know. */
+const kUnknown: Record<string, readonly string[]> = { brick: ['color_to'], ball: ['color_to', 'kind'] };
+
+export function knows(part: Block, key: string): boolean {
+  return !kUnknown[part.name]?.includes(key);
+}

@@ -5,7 +5,7 @@
 
 import { EngineClient, Refused, Superseded, type Finished, type ReadLayout, type RunWatch } from '../engine/client.ts';
 import { lastArrival } from '../recording/wave.ts';
-import { mirrorPart, movePart, nameOf, partsOf, pointsOf, turnPart, type Point } from './parts.ts';
+import { knows, mirrorPart, movePart, nameOf, partsOf, pointsOf, turnPart, type Point } from './parts.ts';
 import type { Style } from './shapes.ts';
 import { Block, TomlFile } from './toml.ts';
 
@@ -366,10 +366,10 @@ export class Studio {
     if (blocks.length) this.add(...blocks);
     this.style = style; // a copy takes no colour
   }
-  /** Sets a value of every chosen part. */
+  /** Sets a value of every chosen part that knows the key. */
   set(key: string, value: string | number, group = key): void {
     this.edit((file) => {
-      for (const part of this.chosenBlocks(file)) {
+      for (const part of this.chosenBlocks(file).filter((one) => knows(one, key))) {
         if (value === '') part.remove(key);
         else part.set(key, value);
       }
@@ -391,6 +391,18 @@ export class Studio {
   pointsOf(index: number): Point[] {
     const part = partsOf(this.file)[index];
     return part ? pointsOf(part) : [];
+  }
+
+  /** Why a text is no layout, a sentence each; none where it is one, or the engine is not there to say. */
+  async problemsOf(text: string, name: string): Promise<string[]> {
+    this.quick ??= new EngineClient();
+    try {
+      await this.quick.ready;
+      await this.quick.read({ text, name, overrides: [] });
+      return [];
+    } catch (error) {
+      return error instanceof Refused ? error.problems : [];
+    }
   }
 
   /** How long it will take, by the quickest model that carries a wave; nothing is said where it cannot take the layout. */

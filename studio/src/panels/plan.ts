@@ -72,21 +72,44 @@ export function drawPlan(canvas: HTMLCanvasElement, playhead: Playhead, fit: Pla
   pen.stroke();
 }
 
-/** The brick's shadow straight down: as long along its lean as it reaches. */
+/** The brick's shadow straight down, however it lies. */
 function trace(pen: CanvasRenderingContext2D, playhead: Playhead, fit: PlanFit, brick: number): void {
   const { position, turn, origin } = playhead;
-  const [ht, hw, hh] = halfExtents(playhead.recording, brick);
+  const half = halfExtents(playhead.recording, brick);
   const [x, y, z, w] = turn.subarray(4 * brick, 4 * brick + 4);
-  const along = (v: [number, number, number]): [number, number] => {
+  const axes = half.map((size, axis) => {
+    const v = [0, 0, 0];
+    v[axis] = size;
     const tx = 2 * (y * v[2] - z * v[1]);
     const ty = 2 * (z * v[0] - x * v[2]);
     const tz = 2 * (x * v[1] - y * v[0]);
     return [v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz];
-  };
-  const [a, b, c] = [along([ht, 0, 0]), along([0, hw, 0]), along([0, 0, hh])];
-  const reach: [number, number] = [a[0] + Math.sign(a[0] * c[0] + a[1] * c[1] || 1) * c[0], a[1] + Math.sign(a[0] * c[0] + a[1] * c[1] || 1) * c[1]];
+  });
   const [px, py] = [position[3 * brick] + origin[0], position[3 * brick + 1] + origin[1]];
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((corner): [number, number] => {
+    const [dx, dy] = [0, 1].map((k) => axes.reduce((sum, axis, i) => sum + (corner & (1 << i) ? axis[k] : -axis[k]), 0));
+    return [fit.x(px + dx), fit.y(py + dy)];
+  });
   pen.beginPath();
-  for (const [i, j] of [[1, 1], [1, -1], [-1, -1], [-1, 1]]) pen.lineTo(fit.x(px + i * reach[0] + j * b[0]), fit.y(py + i * reach[1] + j * b[1]));
+  for (const [cx, cy] of hull(corners)) pen.lineTo(cx, cy);
   pen.closePath();
+}
+
+/** The convex outline of points in the plane. */
+export function hull(points: [number, number][]): [number, number][] {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const side = (from: [number, number][]): [number, number][] => {
+    const out: [number, number][] = [];
+    for (const p of from) {
+      while (out.length > 1) {
+        const [[ax, ay], [bx, by]] = out.slice(-2);
+        if ((bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0) break;
+        out.pop();
+      }
+      out.push(p);
+    }
+    out.pop();
+    return out;
+  };
+  return [...side(sorted), ...side([...sorted].reverse())];
 }

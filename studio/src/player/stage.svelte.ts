@@ -176,17 +176,28 @@ export class Stage {
     this.wake();
   }
 
-  /** Comes nearer to a run that is small in the view. */
+  /** Comes nearer to a run that is small in the view, and rides with the wave of one that is too long to be looked at as a whole. */
   closeIn(): void {
-    this.view?.rig.closeIn();
+    if (this.view && !this.view.rig.closeIn()) this.setWay('front');
     this.wake();
   }
 
-  frameAll(cut = false): void {
-    if (this.way !== 'top') this.way = 'orbit';
-    this.view?.rig.orbit();
-    if (this.view && this.way === 'top') this.view.rig.way = 'top';
-    this.view?.rig.frameAll(cut);
+  /** @param fresh Another run. */
+  frameAll(cut = false, fresh = false): void {
+    const rig = this.view?.rig;
+    if (this.way !== 'top') {
+      this.way = 'orbit';
+      rig?.orbit();
+    }
+    rig?.frameAll(cut, fresh);
+    this.wake();
+  }
+
+  /** Lines on the table, and the camera as it was when one drew there. */
+  setDrawing(drawing: boolean): void {
+    if (!this.view) return;
+    this.view.drawing = drawing;
+    this.way = this.view.rig.way;
     this.wake();
   }
 }

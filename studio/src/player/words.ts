@@ -59,6 +59,9 @@ export function eventWords(recording: Recording, event: number, brick: number): 
   }
 }
 
+/** For the middle of a sentence. */
+export const lowered = (words: string): string => words.charAt(0).toLowerCase() + words.slice(1);
+
 /** With a capital and a full stop. */
 export function sentence(words: string): string {
   const trimmed = words.trim();

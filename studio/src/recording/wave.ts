@@ -145,6 +145,12 @@ export function lastArrival({ events, duration }: Recording): number {
   return duration;
 }
 
+/** The brick that the wave reached last; -1: it reached none. */
+export function lastReached({ events }: Recording): number {
+  for (let i = events.count - 1; i >= 0; i--) if (events.kind[i] === EventKind.arrived) return events.brick[i];
+  return -1;
+}
+
 /** A second after the wave reached its last brick: later only small settling goes on. */
 export function usualEnd(recording: Recording): number {
   return Math.min(recording.duration, lastArrival(recording) + 1);

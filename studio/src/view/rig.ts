@@ -1,6 +1,6 @@
 /** The camera and its four ways: orbit (free), front (follows the wave), eye (low beside a brick), top. */
 
-import { MOUSE, PerspectiveCamera, TOUCH, Vector3 } from 'three';
+import { MathUtils, MOUSE, PerspectiveCamera, TOUCH, Vector3 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { defaultDirection, frame, type Aim, type Insets } from './framing.ts';
 
@@ -9,8 +9,25 @@ export type Way = 'orbit' | 'front' | 'eye' | 'top';
 const kFlight = 0.55;
 /** The part of a camera's distance to which coming nearer is worth a flight. */
 const kMuchNearer = 0.8;
+/** How far down the free camera must look for its way of looking to be kept: beside a brick, and from straight above, it has none. */
+const kFlattest = -0.15;
+const kSteepest = -0.985;
+/** Bricks lower than this part of the view are no longer seen to fall. */
+const kSpeck = 0.008;
 /** How fast the camera closes in on the front [1/s]. */
 const kFollow = 5;
+
+/** Over the table as one draws: x to the right. */
+const kTableForward = new Vector3(0, 0.7, -0.72);
+
+/** A camera to come back to. */
+interface Left {
+  aim: Aim;
+  way: Way;
+  framed: boolean;
+  /** All bricks were in sight. */
+  whole: boolean;
+}
 
 /** A place on the table and the way a brick there heads. */
 export interface Spot {
@@ -28,10 +45,12 @@ export class Rig {
   /** Cut instead of flying. */
   still = matchMedia('(prefers-reduced-motion: reduce)').matches;
   /** All bricks are in view and nobody has moved the camera since: it keeps them in view when the page changes its size. */
-  private drawing = false;
   private framed = true;
-  /** From where it came nearer by itself. */
-  private left: Aim | null = null;
+  private drawing = false;
+  /** The table as it was drawn on, to come back to; null once somebody has moved the camera since. */
+  private table: Left | null = null;
+  /** The free camera while another way has its place. */
+  private free: Left | null = null;
   private flight: { from: Aim; to: Aim; part: number } | null = null;
 
   /**
@@ -55,7 +74,7 @@ export class Rig {
     this.controls.addEventListener('start', () => {
       this.flight = null;
       this.framed = false;
-      this.left = null;
+      if (!this.drawing) this.table = null;
     });
   }
 
@@ -69,9 +88,40 @@ export class Rig {
 
   /** While drawing the left button and one finger draw; the right button, the wheel and two fingers move the camera. */
   setDrawing(drawing: boolean): void {
+    if (this.drawing !== drawing) this.exchange(drawing);
     this.drawing = drawing;
     this.controls.mouseButtons = drawing ? { LEFT: null, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE } : { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.touches = drawing ? { ONE: null, TWO: TOUCH.DOLLY_PAN } : { ONE: TOUCH.ROTATE, TWO: TOUCH.DOLLY_PAN };
+  }
+
+  /** For drawing the camera goes back to where it was, unless somebody has moved it since; and never stays beside a brick. */
+  private exchange(drawing: boolean): void {
+    if (!drawing) {
+      this.table = this.now();
+      return;
+    }
+    if (this.table) this.comeBack(this.table);
+    else if (this.way !== 'top') this.orbit();
+    this.table = null;
+  }
+
+  /** Where the camera is, or flies to. */
+  private now(): Left {
+    const { position, target } = this.flight?.to ?? { position: this.camera.position, target: this.controls.target };
+    return { aim: { position: position.clone(), target: target.clone() }, way: this.way, framed: this.framed, whole: this.whole() };
+  }
+
+  private comeBack(left: Left): void {
+    this.way = left.way;
+    this.controls.zoomToCursor = left.way !== 'front';
+    this.goTo(left.aim);
+    this.framed = left.framed;
+  }
+
+  /** Keeps the free camera's place for when one comes back to it. */
+  private leave(way: Way): void {
+    if (this.way === 'orbit') this.free = this.now();
+    this.way = way;
   }
 
   get distance(): number {
@@ -90,7 +140,6 @@ export class Rig {
 
   private goTo(aim: Aim, cut = false): void {
     this.framed = false;
-    this.left = null;
     const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
     this.flight = { from, to: aim, part: cut || this.still ? 1 : 0 };
     if (this.flight.part === 1) this.advance(0);
@@ -113,7 +162,7 @@ export class Rig {
     const farthest = this.distance * 30 + 4 * this.radius();
     this.camera.near = Math.max(0.002, Math.min(0.02, 0.1 * this.distance), farthest / 60000);
     this.camera.far = farthest;
-    this.controls.maxDistance = 6 * (this.radius() + this.brickHeight * 8);
+    this.controls.maxDistance = 14 * (this.radius() + this.brickHeight * 8);
     this.camera.updateProjectionMatrix();
   }
 
@@ -151,52 +200,77 @@ export class Rig {
     return true;
   }
 
-  /** All bricks in view. */
-  frameAll(cut = false): void {
+  /** All bricks in view, from the side from which they are seen now. @param fresh Another run: from the side that suits it. */
+  frameAll(cut = false, fresh = false): void {
     const top = this.way === 'top';
-    const forward = top ? new Vector3(0, 1e-3, -1) : this.defaultForward();
+    const forward = top ? new Vector3(0, 1e-3, -1) : ((fresh ? null : this.tableForward()) ?? this.defaultForward());
+    if (fresh) this.free = null;
     this.goTo(frame(this.points, forward, this.camera, this.insets), cut);
     this.framed = true;
   }
 
-  /** Nearer from the same side, if all bricks are in sight and would be much larger: what is drawn needs room, what falls is looked at. */
-  closeIn(): void {
-    if (this.framed || this.way !== 'orbit') return;
+  /** Which way the free camera looks, if it looks down on the table; null: along it, straight down, or nowhere yet. */
+  tableForward(): Vector3 | null {
+    const { position, target } = (this.way === 'orbit' ? this.now() : (this.free ?? this.now())).aim;
+    const forward = target.clone().sub(position);
+    if (forward.length() < 1e-9) return null;
+    forward.normalize();
+    return forward.z < kFlattest && forward.z > kSteepest ? forward : null;
+  }
+
+  /** Whether all bricks are in sight. */
+  private whole(): boolean {
     this.camera.updateMatrixWorld();
-    const seen = this.points.every((point) => {
+    return this.points.every((point) => {
       const at = point.clone().project(this.camera);
       return Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && at.z < 1;
     });
-    const aim = frame(this.points, this.controls.target.clone().sub(this.camera.position), this.camera, this.insets);
-    if (!seen || aim.position.distanceTo(aim.target) > kMuchNearer * this.camera.position.distanceTo(aim.target)) return;
-    const from = { position: this.camera.position.clone(), target: this.controls.target.clone() };
-    this.goTo(aim);
-    this.left = from;
   }
 
-  /** To where the camera was before it came nearer by itself, unless somebody has moved it since. */
-  goBack(): void {
-    if (this.left) this.goTo(this.left);
+  /**
+   * Nearer from the same side, if all bricks were in sight and would be much larger: what is drawn needs room, what falls is looked at.
+   * Back, if the page's other shape has cut some of them off.
+   * @returns Whether bricks in sight can be seen from there: a run of many metres is a line.
+   */
+  closeIn(): boolean {
+    if (this.framed || this.way !== 'orbit') return true;
+    const whole = this.whole();
+    if (!whole && !this.table?.whole) return true;
+    const aim = frame(this.points, this.controls.target.clone().sub(this.camera.position), this.camera, this.insets);
+    if (this.sizeAt(aim.position.distanceTo(aim.target)) < kSpeck) return false;
+    if (!whole || aim.position.distanceTo(aim.target) < kMuchNearer * this.distance) this.goTo(aim);
+    return true;
+  }
+
+  /** A brick's height as a part of the view's, so far away. */
+  sizeAt(distance: number): number {
+    return this.brickHeight / (2 * Math.tan(MathUtils.degToRad(this.camera.fov) / 2) * distance);
   }
 
   defaultForward(): Vector3 {
     if (this.forward) return this.forward.clone();
-    return this.drawing ? new Vector3(0, 0.7, -0.72) : defaultDirection(this.points);
+    return this.drawing ? kTableForward.clone() : defaultDirection(this.points);
   }
 
+  /** The free camera, where it was left. */
   orbit(): void {
+    if (this.way === 'orbit') return;
+    const { free } = this;
+    this.free = null;
     this.way = 'orbit';
     this.controls.zoomToCursor = true;
+    if (free) this.comeBack(free);
   }
 
   top(): void {
-    this.way = 'top';
+    this.leave('top');
+    this.controls.zoomToCursor = true;
     this.frameAll();
   }
 
   /** Rides beside the wave, a little ahead of it, looking back at the bricks that fall. */
   followFront(spot: Spot): void {
-    this.way = 'front';
+    this.leave('front');
     this.controls.zoomToCursor = false;
     const reach = 9.5 * this.brickHeight;
     const target = spot.place.clone().setZ(0.35 * this.brickHeight);
@@ -227,7 +301,8 @@ export class Rig {
 
   /** Low beside a brick, at the height of its eye, looking back along the run at what is coming. */
   brickEye(spot: Spot): void {
-    this.way = 'eye';
+    this.leave('eye');
+    this.controls.zoomToCursor = true;
     const h = this.brickHeight;
     const ahead = new Vector3(Math.cos(spot.heading), Math.sin(spot.heading), 0);
     const side = new Vector3(-ahead.y, ahead.x, 0).multiplyScalar(Math.sign(this.sideOf(spot.place, new Vector3(-ahead.y, ahead.x, 0))));

@@ -22,7 +22,7 @@ export const kExposure = 1 / 0.6;
 /** How long nothing must move before the still begins [s]. */
 const kPatience = 0.25;
 /** Bricks that frame the run: more would not change the picture. */
-const kFramePoints = 3000;
+const kFramePoints = 1500;
 
 /** True where the page can have a 3-D view. */
 export function hasWebGl(): boolean {
@@ -145,6 +145,11 @@ export class View {
     this.still.resize(size.x, size.y);
     this.rig.resize(width / height);
     this.changed();
+  }
+
+  /** How high a standing brick is in the middle of the view [CSS px]. */
+  get brickPixels(): number {
+    return this.rig.sizeAt(this.rig.distance) * this.canvas.clientHeight;
   }
 
   /** Lines on the table while one draws. */
@@ -351,9 +356,16 @@ export function framePoints(recording: Recording, origin: readonly number[]): Ve
   const points: Vector3[] = [];
   const add = (brick: number): void => {
     const [x, y, z] = [0, 1, 2].map((axis) => bricks.foot[3 * brick + axis] - origin[axis]);
-    const { up } = extentsOf(recording, brick);
-    const heading = bricks.heading[brick];
-    points.push(new Vector3(x, y, z), new Vector3(x, y, z + up), new Vector3(x + up * Math.cos(heading), y + up * Math.sin(heading), z));
+    const { up, along, across } = extentsOf(recording, brick);
+    const [c, s] = [Math.cos(bricks.heading[brick]), Math.sin(bricks.heading[brick])];
+    // Its four edges from foot to top, and where its top comes to lie.
+    for (const side of [-0.5 * across, 0.5 * across]) {
+      for (const end of [-0.5 * along, 0.5 * along]) {
+        const [px, py] = [x + c * end - s * side, y + s * end + c * side];
+        points.push(new Vector3(px, py, z), new Vector3(px, py, z + up));
+      }
+      points.push(new Vector3(x + c * up - s * side, y + s * up + c * side, z));
+    }
   };
   for (let brick = 0; brick < bricks.count; brick += step) add(brick);
   if (bricks.count > 0) add(bricks.count - 1);

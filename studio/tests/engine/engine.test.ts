@@ -9,6 +9,7 @@ import { Engine, LayoutError } from '../../src/engine/engine.ts';
 import { ContactSteps, kFloor } from '../../src/forces/contact_steps.ts';
 import { decodeRecording } from '../../src/recording/decode.ts';
 import { GrowingRecording } from '../../src/recording/growing.ts';
+import { findFalls } from '../../src/recording/wave.ts';
 import { halfExtents, hingedPose, newPose, tiltOf } from '../../src/recording/pose.ts';
 
 const kRoot = fileURLToPath(new URL('../../../', import.meta.url));
@@ -121,7 +122,7 @@ describe('doubts', () => {
     // With friction 0.2 a brick is tipped only when hit over 7.5 / 0.4 = 18.75 mm; from 48 mm of brick that is sqrt(48^2 - 18.75^2) = 44.2 mm away.
     const at = (gap: number): string => row(3, '').replace('16.5', String(gap)) + '\n[contact]\nfloor_friction = 0.2\n';
     expect(words(at(44))).toEqual([]);
-    expect(words(at(45))[0]).toBe('Gap 45 mm between brick 0 and 1 is beyond reach with floor friction 0.2.');
+    expect(words(at(45))[0]).toBe('Gap 45 mm between bricks 0 and 1 is beyond reach with floor friction 0.2.');
   });
 
   test('a brick beside the fall is told by how much', () => {
@@ -139,7 +140,14 @@ test('what the engine reads is what the decoder reads', () => {
   expect(draft.length).toBeCloseTo(6 * 0.024, 12);
 });
 
-test.each(kGallery)('the gallery: $name has no doubts but where it is meant to stop', ({ name, text }) => {
+test.each(kGallery)('the gallery: $name has no doubts and all of it falls, but where it is meant to stop', ({ name, text }) => {
   const doubts = engine.read(text).doubts.map((doubt) => doubt.kind);
   expect(doubts).toEqual(name === 'Where it stops' ? ['beyond_reach'] : []);
+  const growing = new GrowingRecording();
+  growing.add(engine.start(text));
+  while (engine.advance(1000));
+  growing.add(engine.collect(true));
+  const recording = growing.look(true);
+  // Where the gap is too wide the ten bricks before it fall.
+  expect(findFalls(recording).length).toBe(name === 'Where it stops' ? 10 : recording.bricks.count);
 });

@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import type { Browser, BrowserContext, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { kGallery } from '../../src/draw/gallery.ts';
+import { makeFragment } from '../../src/draw/link.ts';
 import { kOut, kProgram, kRoot, launch, serve, serveFolder, type Site } from './browser.ts';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -160,7 +161,7 @@ describe('a new user', () => {
     await tool('Brick');
     const far = (await page.evaluate(() => window.topple.pixelAt(-300, -250)))!;
     await page.mouse.click(far.x, far.y);
-    await expect.poll(() => page.evaluate(() => window.topple.doubts.join())).toMatch(/No brick near brick \d+ \(brick 1\) falls towards it/);
+    await expect.poll(() => page.evaluate(() => window.topple.doubts.join())).toMatch(/No brick near brick \d+ \(part: brick 1\) falls towards it/);
     await page.getByRole('button', { name: 'Show' }).click();
     await page.screenshot({ path: `${kOut}/studio-warning.png` });
     await page.locator('canvas').first().focus();
@@ -269,6 +270,14 @@ describe('a new user', () => {
     await other.close();
   });
 
+  test('a link whose layout is none says every problem and loses nothing', async () => {
+    const mine = await text();
+    const opened = await open(await makeFragment({ text: '[[row]]\ncount = 0\ngap_mm = 10\n', hash: '' }));
+    await expect.poll(() => opened.getByRole('alert').innerText()).toMatch(/The layout in this link cannot be opened\.[\s\S]*count: must be[\s\S]*untouched/);
+    await expect.poll(() => opened.evaluate(() => window.topple.text)).toBe(mine);
+    await opened.close();
+  });
+
   test.each([
     ['letters that no link has', () => `${link.slice(0, 60)}!!${link.slice(62)}`],
     ['cut off', () => link.slice(0, 80)],
@@ -290,10 +299,14 @@ describe('a new user', () => {
     expect(await text()).toBe(mine);
     await page.getByRole('button', { name: 'Close' }).click();
     await give('bad.toml', '[[row]]\ncount = many\n');
-    await expect.poll(() => page.getByLabel('Warnings').innerText()).toMatch(/expected|value|parse/i);
-    await page.locator('canvas').first().focus();
-    await page.keyboard.press('Control+z');
+    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/^bad\.toml cannot be opened\.\nbad\.toml:2[\s\S]*untouched\.$/);
     expect(await text()).toBe(mine);
+    await give('worse.toml', '[[row]]\ncount = -3\ngap_mm = 10\ncolour = "red"\n');
+    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/worse\.toml:2:9: row\.0\.count: [\s\S]*worse\.toml:4:1: row\.0\.colour: /);
+    await give('photo.jpg', 'not for us');
+    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/photo\.jpg is neither a layout \(\.toml\) nor a recording \(\.topple\)/);
+    expect(await text()).toBe(mine);
+    await page.getByRole('button', { name: 'Close' }).click();
     await settled();
   });
 

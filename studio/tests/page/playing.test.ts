@@ -8,10 +8,13 @@ const kLayout = 'studio/tests/page/row.toml';
 let browser: Browser;
 let site: Site;
 let page: Page;
+/** Made by the program. */
+let real = false;
 const complaints: string[] = [];
 
 beforeAll(async () => {
-  const { bytes } = await recordingOf(kLayout, () => makeRecording({ count: 12 }));
+  const { bytes, real: made } = await recordingOf(kLayout, () => makeRecording({ count: 12 }));
+  real = made;
   site = await serve(bytes, { front_speed_m_s: 0.9, end: 'at rest' });
   browser = await launch();
   page = await browser.newPage({ viewport: { width: 1000, height: 560 }, reducedMotion: 'reduce' });
@@ -19,7 +22,6 @@ beforeAll(async () => {
   page.on('pageerror', (error) => complaints.push(error.message));
   await page.goto(`${site.url}?still=off`);
   await page.waitForFunction(() => window.topple?.loaded);
-  
 });
 afterAll(async () => {
   await browser?.close();
@@ -173,6 +175,15 @@ describe('the page', () => {
     await page.evaluate(() => window.topple.finishStill(3));
     const at = (await page.evaluate(() => window.topple.placeOf(6)))!;
     expect(await isColorful(at.x, at.y)).toBe(true);
+  });
+
+  test('a recording from elsewhere is compared by its own layout, and is still there afterwards', async () => {
+    if (!real) return; // one that is made up holds no layout
+    await page.getByRole('button', { name: 'Compare' }).click();
+    await expect.poll(() => page.getByRole('article', { name: 'Rigid' }).innerText()).toMatch(/Fallen\s+12 of 12/);
+    await page.getByRole('button', { name: 'Watch' }).click();
+    await page.keyboard.press('End');
+    expect(await page.evaluate(() => window.topple.fallen)).toBe(12);
   });
 
   test('nothing was reported as an error', () => {

@@ -84,7 +84,8 @@ test('a link opened without WebGL: a sentence, the layout is there, it can be ru
   const page = await plain.newPage({ viewport: { width: 1100, height: 640 } });
   await page.goto(`${bare.url}${await makeFragment({ text, hash: '' })}`);
   await page.waitForFunction(() => window.topple?.drawn === 9 && window.topple.settled);
-  expect(await page.locator('.empty').innerText()).toMatch(/no WebGL 2[\s\S]*Layouts can be opened and run/);
+  expect(await page.locator('.plan [role=status]').innerText()).toMatch(/no WebGL 2[\s\S]*Layouts can be opened and run/);
+  expect(await page.locator('.empty').count()).toBe(0); // nothing lies over the plan
   await page.getByRole('button', { name: /Topple/ }).click();
   await page.waitForFunction(() => window.topple.hash !== '');
   await page.keyboard.press('End');
@@ -117,12 +118,13 @@ describe('at every size', () => {
               wide: root.scrollWidth > innerWidth || document.body.scrollHeight > innerHeight,
               view: view.clientWidth > 0.5 * innerWidth && view.clientHeight > 0.25 * innerHeight,
               canvas: canvas.width >= view.clientWidth && canvas.height >= view.clientHeight,
+              panel: [...document.querySelectorAll('.panel')].every((one) => one.scrollWidth <= one.clientWidth),
               cut: buttons.some((b) => b.getBoundingClientRect().right > innerWidth || b.getBoundingClientRect().bottom > innerHeight),
             };
           }),
           { timeout: 20000 },
         )
-        .toEqual({ wide: false, view: true, canvas: true, cut: false });
+        .toEqual({ wide: false, view: true, canvas: true, panel: true, cut: false });
       const opener = page.getByRole('button', { name: width < 720 ? 'Details' : 'Panel' });
       if (width >= 960) continue;
       await opener.click();

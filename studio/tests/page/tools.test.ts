@@ -104,7 +104,7 @@ test('the brush colours single bricks, one stroke is one step of undo', async ()
   await settled();
   const before = await text();
   await tool('Brush'); // nothing is chosen any more: the palette is the brush's
-  await page.getByRole('button', { name: 'Colour #17a398' }).click();
+  await page.getByRole('button', { name: 'Teal', exact: true }).click();
   const at = async (brick: number): Promise<{ x: number; y: number }> => (await page.evaluate((b) => window.topple.placeOf(b), brick))!;
   const [a, b] = [await at(3), await at(5)];
   await page.mouse.move(a.x, a.y);
@@ -203,6 +203,167 @@ test('on Topple the camera comes nearer to a run that is small in the view, and 
   await expect.poll(async () => Math.abs((await breadth()) / before - 1)).toBeLessThan(0.02);
 });
 
+/** Where two bricks are in the page, to tell one camera from another. */
+const places = (): Promise<string> => page.evaluate(() => [0, 5].map((brick) => Object.values(window.topple.placeOf(brick) ?? {}).map(Math.round).join()).join(' '));
+
+test('every camera comes back to where it was: the table after the top, the free one after a brick’s eye, the table for drawing', async () => {
+  await tool('Row');
+  await drag([-250, 0], [250, 0]);
+  await settled();
+  const table = await places();
+  await page.getByRole('button', { name: 'Top', exact: true }).click();
+  await expect.poll(places).not.toBe(table);
+  await page.getByRole('button', { name: 'Table' }).click();
+  await expect.poll(places).toBe(table);
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.evaluate(() => window.topple.seek(0));
+  await page.waitForTimeout(1000); // the camera comes nearer once the view has its new size
+  await page.keyboard.press('0'); // from the same side: brick 5 stays to the right of brick 0, as it was drawn
+  await expect.poll(() => page.evaluate(() => window.topple.placeOf(5)!.x - window.topple.placeOf(0)!.x)).toBeGreaterThan(50);
+  await page.waitForTimeout(500);
+  const free = await places();
+  for (const key of ['3', '4', '2']) {
+    await page.keyboard.press(key);
+    await expect.poll(places).not.toBe(free);
+  }
+  await page.keyboard.press('1');
+  await expect.poll(places).toBe(free);
+  await page.keyboard.press('2');
+  await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  await expect.poll(places).toBe(table);
+  expect(await page.getByRole('button', { name: 'Table' }).getAttribute('aria-pressed')).toBe('true');
+});
+
+test('a run of many metres is a line in its colours while one draws, and its wave is ridden with when it falls', async () => {
+  await page.getByLabel('Layout or recording file').setInputFiles({
+    name: 'long.toml', mimeType: 'application/toml',
+    buffer: Buffer.from('[[push]]\nangular_speed_rad_s = 4\n\n[[row]]\ncount = 5000\ngap_mm = 16.5\ncolor = "#d92b2b"\n\n[model]\nname = "hinge"\n'),
+  });
+  await settled();
+  const ribbon = page.locator('[data-test=ribbon] polyline');
+  await expect.poll(() => ribbon.count()).toBeGreaterThan(0);
+  const ends = await ribbon.evaluateAll((all) => all.flatMap((one) => one.getAttribute('points')!.split(' ').map((point) => parseFloat(point))));
+  expect(Math.max(...ends) - Math.min(...ends)).toBeGreaterThan(400); // from end to end of the view
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  expect(await page.getByRole('button', { name: 'Front', exact: true }).getAttribute('aria-pressed')).toBe('true');
+  expect(await ribbon.count()).toBe(0);
+  await page.getByRole('button', { name: 'Draw', exact: true }).click();
+  await expect.poll(() => ribbon.count()).toBeGreaterThan(0);
+});
+
+test('why nothing can fall is said beside Topple, and leads to the warnings where they are out of sight', async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.getByLabel('Layout or recording file').setInputFiles({
+    name: 'two.toml', mimeType: 'application/toml',
+    buffer: Buffer.from('[[push]]\nangular_speed_rad_s = 4\n\n[[row]]\ncount = 9\ngap_mm = 16.5\n\n[[row]]\nfrom_mm = [50, 0]\ncount = 3\ngap_mm = 16.5\n'),
+  });
+  await settled();
+  expect(await page.getByRole('button', { name: 'Topple' }).isDisabled()).toBe(true);
+  expect(await page.getByRole('button', { name: 'Panel, 3 warnings' }).count()).toBe(1);
+  await page.getByRole('button', { name: 'Bricks overlap' }).click();
+  await expect.poll(() => page.getByLabel('Warnings', { exact: true }).innerText()).toMatch(/overlap by/);
+  // What is said in the view does not stick out of it.
+  const boxes = await page.locator('.view .told').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().toJSON() as DOMRect));
+  expect(boxes.length).toBeGreaterThan(0);
+  for (const box of boxes) expect([box.left >= 0, box.right <= 390]).toEqual([true, true]);
+});
+
+test('a wave that leaves bricks standing says how many, and where it came to', async () => {
+  await page.getByLabel('Layout or recording file').setInputFiles({
+    name: 'stops.toml', mimeType: 'application/toml',
+    buffer: Buffer.from('[[push]]\nangular_speed_rad_s = 4\n\n[[row]]\ncount = 5\ngap_mm = 16.5\n\n[[row]]\nfrom_mm = [300, 0]\ncount = 3\ngap_mm = 16.5\n\n[model]\nname = "rigid"\n'),
+  });
+  await settled();
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  const panel = page.getByRole('complementary');
+  await expect.poll(() => panel.innerText()).toMatch(/8, of which 5 fall\s+Standing\s+3; the wave came as far as brick 4/);
+  expect(await panel.innerText()).toMatch(/End\s+At [\d.]+ s everything is at rest\./);
+  await panel.getByRole('button', { name: 'Brick 4' }).click();
+  expect(await page.evaluate(() => window.topple.chosen)).toBe(4);
+});
+
+test('without a pointer: a row is put down, goes on in a curve, is toppled and looked at', async () => {
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('r');
+  await page.keyboard.press('Enter');
+  await settled();
+  const row = await drawn();
+  expect(row).toBe(13); // 300 mm at a pitch of 24 mm
+  await page.keyboard.press('c');
+  await page.keyboard.press('Enter');
+  await expect.poll(drawn).toBeGreaterThan(row + 8);
+  await settled();
+  expect(await page.evaluate(() => window.topple.doubts)).toEqual([]);
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+  await page.keyboard.press('End');
+  await expect.poll(() => page.evaluate(() => window.topple.fallen === window.topple.bricks)).toBe(true);
+});
+
+test('a model that cannot run a layout says so beside Topple, and another one is a click away', async () => {
+  await page.getByLabel('Layout or recording file').setInputFiles({
+    name: 'bend.toml', mimeType: 'application/toml',
+    buffer: Buffer.from('[[push]]\nangular_speed_rad_s = 4\n\n[[curve]]\npoints_mm = [[0, 0], [100, 0], [140, 60], [140, 160]]\ngap_mm = 16.5\n\n[model]\nname = "hinge"\n'),
+  });
+  await settled();
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Space');
+  await page.getByLabel('Run').getByText('Hinge cannot run this').waitFor();
+  await page.getByRole('button', { name: 'Use rigid' }).click();
+  await settled();
+  expect(await page.getByRole('button', { name: 'Topple' }).isEnabled()).toBe(true);
+  expect(await text()).toMatch(/name = "rigid"/);
+});
+
+test('the gap has builders’ usual one beside it, and a click takes it', async () => {
+  await tool('Row');
+  await drag([-150, 0], [150, 0]);
+  await settled();
+  await page.getByRole('button', { name: '7.5 mm', exact: true }).click();
+  expect(await page.getByLabel('Gap', { exact: true }).inputValue()).toBe('7.5');
+  expect(await text()).toMatch(/gap_mm = 7\.5/);
+});
+
+test('what the browser cannot keep is said at any size, and a menu closes when one touches elsewhere', async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.getByRole('button', { name: 'More' }).click();
+  expect(await page.getByRole('button', { name: 'Scenes' }).isVisible()).toBe(true);
+  await page.mouse.click(60, 400);
+  await expect.poll(() => page.getByRole('button', { name: 'Scenes' }).isVisible()).toBe(false);
+  await page.evaluate(() => {
+    Storage.prototype.setItem = () => {
+      throw new DOMException('full', 'QuotaExceededError');
+    };
+  });
+  await tool('Row');
+  await drag([-100, 0], [100, 0]);
+  await page.getByRole('status').filter({ hasText: 'too large for this browser to keep: save it as a file' }).waitFor();
+});
+
+test('a colour for all goes to each part that knows it: a ball and a single brick have one, and no kind', async () => {
+  await tool('Row');
+  await drag([-150, 0], [150, 0]);
+  await tool('Brick');
+  const at = await pixel(-200, -150);
+  await page.mouse.click(at.x, at.y);
+  await tool('Ball');
+  await drag([-300, 100], [-250, 100]);
+  await expect.poll(text).toMatch(/\[\[ball\]\]/);
+  await settled();
+  expect([await page.getByLabel('Kind', { exact: true }).count(), await page.getByLabel('Colour of the last brick').count()]).toEqual([0, 0]);
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Control+a');
+  await page.getByLabel('Colour of the last brick').fill('#17a398');
+  await settled();
+  expect((await text()).match(/color_to = "#17a398"/g)?.length).toBe(1);
+  expect(await page.getByLabel('Warnings', { exact: true }).innerText()).not.toMatch(/unknown key/);
+});
+
 test('slow motion goes round the cursor, and back to what it was', async () => {
   await tool('Row');
   await drag([-250, 0], [250, 0]);
@@ -243,6 +404,23 @@ test('while a run goes on, what is not simulated yet is hatched', async () => {
   await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
   expect(await page.evaluate(() => (window as never as { seen: { hatched: number } }).seen.hatched)).toBeGreaterThan(0);
   await expect.poll(() => page.locator('[data-test=unknown]').count()).toBe(0);
+});
+
+test('a run can be stopped while one watches, and what was simulated stays', async () => {
+  await page.getByLabel('Layout or recording file').setInputFiles({
+    name: 'long.toml', mimeType: 'application/toml',
+    // Few bricks that are quickly drawn, and steps so small that the run takes a while.
+    buffer: Buffer.from('[[push]]\nangular_speed_rad_s = 4\n\n[[row]]\ncount = 60\ngap_mm = 16.5\n\n[model]\nname = "rigid"\ntime_step_s = 0.000001\n'),
+  });
+  await settled();
+  await page.locator('canvas').first().focus();
+  await page.keyboard.press('Space');
+  await page.locator('.running').waitFor();
+  await expect.poll(() => page.getByRole('complementary').innerText()).toMatch(/fall so far[\s\S]*still being simulated/);
+  await page.locator('.running').getByRole('button', { name: 'Stop' }).click();
+  await expect.poll(() => page.getByRole('complementary').innerText()).toMatch(/the run was stopped/i);
+  expect(await page.locator('.running').count()).toBe(0);
+  expect(await page.evaluate(() => window.topple.duration)).toBeGreaterThan(0);
 });
 
 test('nothing was reported as an error', () => expect(complaints).toEqual([]));
