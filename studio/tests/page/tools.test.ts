@@ -249,7 +249,7 @@ test('a run of many metres is a line in its colours while one draws, and its wav
   await page.keyboard.press('Space');
   await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
   expect(await page.getByRole('button', { name: 'Front', exact: true }).getAttribute('aria-pressed')).toBe('true');
-  expect(await ribbon.count()).toBe(0);
+  await expect.poll(() => ribbon.count()).toBe(0); // once the camera is near enough
   await page.getByRole('button', { name: 'Draw', exact: true }).click();
   await expect.poll(() => ribbon.count()).toBeGreaterThan(0);
 });
