@@ -38,6 +38,26 @@ void read_starter(Section& section, const PartPlan& plan, double width, FieldPla
   field.turn = static_cast<std::int64_t>(std::ceil(0.5 * kPi * kTurnRadius * width / field.pitch));
 }
 
+void check_size(Section& section, const FieldPicture& picture, std::int64_t rows, std::int64_t count) {
+  if (rows != picture.rows)
+    section.problem("rows", "must be the " + count_text(picture.rows) + " lines of the picture, is " + count_text(rows));
+  if (count == picture.count) return;
+  const std::string letters = "the " + count_text(picture.count) + " letters of each of the picture's lines";
+  section.problem(section.has("count") ? "count" : "length_mm", section.has("count")
+                                                                    ? "must be " + letters + ", is " + count_text(count)
+                                                                    : "gives rows of " + count_text(count) + " bricks, not " + letters);
+}
+
+/// The picture's colours over the rows, behind their line and turns; strokes of a brush over those.
+std::vector<PaintStroke> painted(const FieldPicture& picture, std::int64_t line_bricks, std::int64_t turn_bricks,
+                                 const std::vector<PaintStroke>& over) {
+  std::vector<PaintStroke> paint;
+  for (std::int64_t row = 0; row < picture.rows; ++row)
+    paint_row(picture, row, line_bricks + row * (turn_bricks + picture.count) + turn_bricks, paint);
+  paint.insert(paint.end(), over.begin(), over.end());
+  return paint;
+}
+
 }  // namespace
 
 std::optional<PartPlan> read_field(Section& section, std::vector<BrickKind>& kinds) {
@@ -46,11 +66,15 @@ std::optional<PartPlan> read_field(Section& section, std::vector<BrickKind>& kin
   FieldPlan field;
   field.from = section.point("from_mm", 3).value_or(Vec3{});
   field.heading_deg = section.number("heading_deg", kHeading).value_or(0.0);
-  const auto rows = section.whole("rows", 1, kMaxBricks);
-  if (!section.has("rows")) section.missing("rows must be there: how many there are side by side");
+  const std::optional<FieldPicture> picture = read_picture(section);
+  const auto rows = section.has("rows") || !picture ? section.whole("rows", 1, kMaxBricks) : picture->rows;
+  if (!section.has("rows") && !section.has("picture")) section.missing("rows must be there: how many there are side by side");
   const auto row_pitch = section.number("row_pitch_mm", kPitch);
   if (!section.has("row_pitch_mm")) section.missing("row_pitch_mm must be there: from one row to the next");
-  const auto line = read_line(section, plan, kinds);
+  // A picture with a mistake says nothing of how many there are, but they need not be said elsewhere.
+  const auto counted = section.has("picture") ? std::optional(picture ? picture->count : 1) : std::nullopt;
+  const auto line = read_line(section, plan, kinds, counted);
+  if (picture && line) check_size(section, *picture, rows.value_or(picture->rows), line->count);
   if (!line || !rows || !row_pitch || !section.good()) return std::nullopt;
   field.rows = *rows;
   field.count = line->count;
@@ -68,7 +92,9 @@ std::optional<PartPlan> read_field(Section& section, std::vector<BrickKind>& kin
     return std::nullopt;
   }
   const bool with_line = field.starter == FieldPlan::Starter::line;
-  plan.count = field.rows * field.count + (with_line ? field.rows * (field.steps + field.turn + 1) - field.steps + 2 : 0);
+  const std::int64_t line_bricks = with_line ? field.rows * field.steps - field.steps + 2 : 0, turn_bricks = with_line ? field.turn + 1 : 0;
+  plan.count = line_bricks + field.rows * (turn_bricks + field.count);
+  if (picture) plan.paint = painted(*picture, line_bricks, turn_bricks, plan.paint);
   plan.shape = field;
   return plan;
 }

@@ -20,9 +20,9 @@ inline constexpr std::array<Key, 11> kRow{"from_mm", "heading_deg", "count",    
                                           "kind",    "color",       "color_to", "pose",      "paint"};
 inline constexpr std::array<Key, 8> kCurve{"points_mm", "pitch_mm", "gap_mm", "kind", "color", "color_to", "pose", "paint"};
 inline constexpr std::array<Key, 5> kBrick{"at_mm", "heading_deg", "kind", "color", "pose"};
-inline constexpr std::array<Key, 15> kField{"from_mm",      "heading_deg", "rows",     "count",   "length_mm",
-                                            "row_pitch_mm", "pitch_mm",    "gap_mm",   "starter", "angular_speed_rad_s",
-                                            "kind",         "color",       "color_to", "pose",    "paint"};
+inline constexpr std::array<Key, 17> kField{"from_mm",  "heading_deg", "rows",     "count",   "length_mm", "row_pitch_mm",
+                                            "pitch_mm", "gap_mm",      "palette",  "picture", "starter",   "angular_speed_rad_s",
+                                            "kind",     "color",       "color_to", "pose",    "paint"};
 inline constexpr std::array<Key, 11> kWall{"at_mm", "heading_deg", "count",    "courses", "gap_mm", "ends",
                                            "kind",  "color",       "color_to", "pose",    "paint"};
 inline constexpr std::array<Key, 9> kTower{"at_mm", "heading_deg", "layers", "count", "kind", "color", "color_to", "pose", "paint"};

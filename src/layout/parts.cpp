@@ -95,16 +95,17 @@ Vec3 direction_of(double degrees) {
   return {angle.cos, angle.sin, 0.0};
 }
 
-std::optional<Line> read_line(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds) {
+std::optional<Line> read_line(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds, std::optional<std::int64_t> usual) {
   const auto count = section.whole("count", 1, kMaxBricks);
   const auto length = section.number("length_mm", kLength);
-  if (section.has("count") == section.has("length_mm")) {
-    section.missing(section.has("count") ? "count and length_mm are both there; exactly one must be"
-                                         : "exactly one of count and length_mm must be there");
+  const bool neither = !section.has("count") && !section.has("length_mm");
+  if (section.has("count") == section.has("length_mm") && !(neither && usual)) {
+    section.missing(neither ? "exactly one of count and length_mm must be there"
+                            : "count and length_mm are both there; exactly one must be");
   }
   const auto pitch = read_pitch(section, plan, kinds);
   if (!section.good() || !pitch) return std::nullopt;
-  const auto counted = count ? count : count_along(section, "length_mm", *length / 1000.0, *pitch);
+  const auto counted = count ? count : length ? count_along(section, "length_mm", *length / 1000.0, *pitch) : usual;
   if (!counted) return std::nullopt;
   return Line{*pitch, *counted};
 }

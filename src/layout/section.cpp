@@ -205,11 +205,16 @@ std::span<const Node> Section::list(std::string_view key, std::size_t most, std:
   return {};
 }
 
-void Section::problem_at(std::string_view key, std::size_t entry, std::string_view what) {
+void Section::problem_at(std::string_view key, std::size_t entry, std::string_view what, std::size_t letter) {
   const Node* node = find(key);
   const auto* array = node ? std::get_if<Array>(&node->value) : nullptr;
-  const Place& place = array && entry < array->size() ? (*array)[entry].place : place_of(key);
+  Place place = array && entry < array->size() ? (*array)[entry].place : place_of(key);
+  if (letter != kWhole) place.column += 1 + static_cast<std::uint32_t>(letter);  // after the quote
   fault(place, path_of(key) + "." + std::to_string(entry), what);
+}
+
+void Section::problem_in(std::string_view key, const KeyedNode& member, std::string_view what) {
+  fault(member.place, path_of(key) + "." + printable(member.key), what);
 }
 
 }  // namespace topple

@@ -30,6 +30,8 @@ std::optional<Color> color_of(std::string_view text);
 
 class Section {
  public:
+  static constexpr std::size_t kWhole = static_cast<std::size_t>(-1);
+
   /// `node` must be a table. Keys that are not among `known` are problems at once.
   Section(const Node& node, std::string path, std::span<const std::string_view> known, Problems& problems);
 
@@ -52,8 +54,10 @@ class Section {
   std::optional<std::vector<Vec3>> points(std::string_view key);
   /// The entries of a list of at most so many; empty where the key is missing, too.
   std::span<const Node> list(std::string_view key, std::size_t most, std::string_view what);
-  /// A problem of one entry of a list.
-  void problem_at(std::string_view key, std::size_t entry, std::string_view what);
+  /// A problem of one entry of a list; where the entry is text, of its letter at this place.
+  void problem_at(std::string_view key, std::size_t entry, std::string_view what, std::size_t letter = kWhole);
+  /// A problem of one member of a table.
+  void problem_in(std::string_view key, const KeyedNode& member, std::string_view what);
 
   void problem(std::string_view key, std::string_view what);
   void missing(std::string_view what);  ///< A problem of the table as a whole.

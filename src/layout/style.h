@@ -19,12 +19,25 @@ PartPlan read_style(Section& section, std::span<const BrickKind> kinds, Stance u
 /// Foot to foot, from exactly one of pitch_mm and gap_mm [m]; empty after a problem.
 std::optional<double> read_pitch(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds);
 
-/// A straight line: its pitch, and its bricks from exactly one of count and length_mm. Empty after a problem.
+/// A straight line: its pitch, and its bricks from exactly one of count and length_mm; neither need be there where something else says
+/// how many are `usual`. Empty after a problem.
 struct Line {
   double pitch = 0.0;  ///< [m]
   std::int64_t count = 0;
 };
-std::optional<Line> read_line(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds);
+std::optional<Line> read_line(Section& section, const PartPlan& plan, std::span<const BrickKind> kinds,
+                              std::optional<std::int64_t> usual = std::nullopt);
+
+/// The colours of a field's bricks, row by row.
+struct FieldPicture {
+  std::int64_t rows = 0, count = 0;
+  std::vector<std::optional<Color>> palette;  ///< By letter.
+  std::vector<std::string_view> lines;        ///< As it is seen from above: the last row first.
+};
+/// `picture` with its `palette`; empty where neither is there, and after a problem.
+std::optional<FieldPicture> read_picture(Section& section);
+/// A row's colours as strokes of paint over its bricks, the first of which has this number within the part.
+void paint_row(const FieldPicture& picture, std::int64_t row, std::int64_t first, std::vector<PaintStroke>& paint);
 
 /// Bricks on a length when one stands at its start. Empty after a problem.
 std::optional<std::int64_t> count_along(Section& section, std::string_view key, double length, double pitch);

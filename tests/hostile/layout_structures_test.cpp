@@ -66,6 +66,47 @@ TEST_CASE("a field that cannot be started is refused in words") {
         "t.toml:1:1: field.0: would take more than the 10,000,000 bricks that are allowed");
 }
 
+TEST_CASE("a picture that cannot be read is refused in words") {
+  const std::string field = "[[field]]\nrow_pitch_mm = 32\npitch_mm = 16\n";
+  CHECK(wrong(field + "picture = [\"ab\", \"ba\"]\n") ==
+        "t.toml:1:1: field.0: palette must be there: a table of a colour for each letter of the picture, { a = \"#rrggbb\" }");
+  CHECK(wrong(field + "palette = { a = \"#000000\" }\n") ==
+        "t.toml:1:1: field.0: rows must be there: how many there are side by side\n"
+        "t.toml:1:1: field.0: exactly one of count and length_mm must be there\n"
+        "t.toml:4:11: field.0.palette: goes with a picture alone");
+  CHECK(wrong(field + "palette = 3\npicture = \"ab\"\n") ==
+        "t.toml:4:11: field.0.palette: must be a table of a colour for each letter of the picture, { a = \"#rrggbb\" }, is 3\n"
+        "t.toml:5:11: field.0.picture: must be a list of at most 10,000,000 lines, is \"ab\"");
+  CHECK(wrong(field + "palette = { ab = \"#000000\", \"\" = \"#000000\", \"\u00e9\" = \"#000000\", c = \"red\", d = 1 }\npicture = [\"c\", "
+                      "5, \"\"]\n") ==
+        "t.toml:4:13: field.0.palette.ab: must be a single letter, digit or sign of ASCII\n"
+        "t.toml:4:29: field.0.palette.: must be a single letter, digit or sign of ASCII\n"
+        "t.toml:4:45: field.0.palette.\u00e9: must be a single letter, digit or sign of ASCII\n"
+        "t.toml:4:62: field.0.palette.c: must be a colour written \"#rrggbb\" with hexadecimal digits, is \"red\"\n"
+        "t.toml:4:73: field.0.palette.d: must be a colour written \"#rrggbb\" with hexadecimal digits, is 1\n"
+        "t.toml:5:17: field.0.picture.1: must be text, a letter for each brick of a row; is 5\n"
+        "t.toml:5:20: field.0.picture.2: must be text, a letter for each brick of a row; is \"\"");
+  const std::string palette = field + "palette = { a = \"#000000\", b = \"#ffffff\" }\n";
+  CHECK(wrong(palette + "picture = []\n") == "t.toml:5:11: field.0.picture: must have a line for each row; is a list of 0");
+  // The column is that of the letter itself.
+  CHECK(wrong(palette + "picture = [\n  \"aab\",\n  \"acb\",\n  \"ab\u00e9\",\n  \"ab\",\n  \"aba\"\n]\n") ==
+        "t.toml:7:5: field.0.picture.1: the palette has no \"c\"\n"
+        "t.toml:8:6: field.0.picture.2: the palette has no \"\u00e9\"\n"
+        "t.toml:9:3: field.0.picture.3: must have the 3 letters of the first line, has 2");
+  CHECK(wrong(palette + "picture = [\"aab\", \"aba\"]\nrows = 3\ncount = 4\n") ==
+        "t.toml:6:8: field.0.rows: must be the 2 lines of the picture, is 3\n"
+        "t.toml:7:9: field.0.count: must be the 3 letters of each of the picture's lines, is 4");
+  CHECK(wrong(palette + "picture = [\"aab\"]\nlength_mm = 16\n") ==
+        "t.toml:6:13: field.0.length_mm: gives rows of 2 bricks, not the 3 letters of each of the picture's lines");
+}
+
+TEST_CASE("a picture of more bricks than are allowed is refused at once") {
+  std::string lines;
+  for (int i = 0; i < 1001; ++i) lines += "\"" + std::string(10'000, 'a') + "\",\n";
+  CHECK(wrong("[[field]]\nrow_pitch_mm = 32\npitch_mm = 16\npalette = { a = \"#000000\" }\npicture = [\n" + lines + "]\n") ==
+        "t.toml:1:1: field.0: would take more than the 10,000,000 bricks that are allowed");
+}
+
 TEST_CASE("a ball that cannot be is refused in words") {
   CHECK(wrong("[[ball]]\n") == "t.toml:1:1: ball.0: at_mm must be there: its lowest point, [x, y] or [x, y, height]");
   CHECK(wrong("[[ball]]\nat_mm = [0, 0]\nspeed_m_s = 1000\ndiameter_mm = 0\nmass_g = -1\nbrick_friction = 11\n") ==

@@ -51,11 +51,15 @@ TEST_CASE("docs/layout.md has every key of every table") {
   }
 }
 
-TEST_CASE("the example of docs/layout.md is a layout") {
+TEST_CASE("the examples of docs/layout.md are layouts") {
   const std::string document = text_of(TOPPLE_SOURCE_DIR "/docs/layout.md");
-  const std::size_t from = document.find("```toml\n") + 8;
-  const auto layout = read_layout(document.substr(from, document.find("```", from) - from), "docs/layout.md");
-  REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
+  int examples = 0;
+  for (std::size_t at = document.find("```toml\n"); at != std::string::npos; at = document.find("```toml\n", at + 1), ++examples) {
+    const std::size_t from = at + 8;
+    const auto layout = read_layout(document.substr(from, document.find("```", from) - from), "docs/layout.md");
+    REQUIRE_MESSAGE(layout.has_value(), layout.error().message);
+  }
+  CHECK(examples == 2);
 }
 
 TEST_CASE("every scene is a layout with a title and a push") {
