@@ -11,6 +11,7 @@ from pathlib import Path
 USES = {
     "base": [],
     "layout": ["base"],
+    "picture": ["layout"],
     "model": ["layout"],
     "pivot": ["model"],
     "hinge": ["model"],
@@ -18,18 +19,18 @@ USES = {
     "recording": ["model"],
     "run": ["recording", "pivot", "hinge", "rigid"],
     "measure": ["recording"],
-    "export": ["recording", "measure"],
+    "export": ["recording", "measure", "picture"],
     "validation": ["run", "measure", "export"],
     "all": ["run", "measure", "export", "validation"],  # include/topple/topple.h
     "apps": ["all"],
 }
 MODELS = ["pivot", "hinge", "rigid"]
-CORE = ["base", "layout", "model", "pivot", "hinge", "rigid", "recording", "run", "measure"]
+CORE = ["base", "layout", "picture", "model", "pivot", "hinge", "rigid", "recording", "run", "measure"]
 
 # Third parties, and the operating system, by the chapter that may have them.
 FOREIGN = {
     "layout": r"toml\+\+/.*",
-    "export": r"hdf5.*|H5.*",
+    "export": r"hdf5.*|H5.*|stb/.*",
     "validation": r"toml\+\+/.*|nlohmann/.*",
     "apps": r"CLI/.*|httplib\.h|nlohmann/.*",
 }

@@ -17,6 +17,7 @@ namespace {
 std::vector<std::unique_ptr<Verb>> all_verbs() {
   std::vector<std::unique_ptr<Verb>> verbs;
   verbs.push_back(layout_verb());
+  verbs.push_back(picture_verb());
   verbs.push_back(run_verb());
   verbs.push_back(show_verb());
   verbs.push_back(studio_verb());

@@ -1,4 +1,4 @@
-/// Files: the only chapter that knows paths. Layouts and recordings in, recordings, tables, HDF5 and plots out.
+/// Files: the only chapter that knows paths. Layouts, images and recordings in; recordings, tables, HDF5 and plots out.
 #pragma once
 
 #include <filesystem>
@@ -7,12 +7,16 @@
 #include <vector>
 
 #include "topple/measure.h"
+#include "topple/picture.h"
 #include "topple/recording.h"
 
 namespace topple {
 
 /// Reads a layout file; a missing file, a directory or bad UTF-8 is an error in words.
 Result<Layout> load_layout(const std::filesystem::path& path, std::span<const std::string> overrides = {});
+
+/// Reads an image, PNG or JPEG of at most 100 million pixels, whatever its name ends in. What is no such image is an error in words.
+Result<Image> load_image(const std::filesystem::path& path);
 
 /// Reads a `.topple` file.
 Result<Recording> load_recording(const std::filesystem::path& path);
