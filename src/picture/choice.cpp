@@ -113,9 +113,9 @@ class Chooser {
   bool raise_prices() {
     bool raised = false;
     for (std::size_t i = 0; i < prices_.size(); ++i) {
-      const std::int64_t excess = std::ssize(margins_[i]) - std::min(picture_.colors[i].stock, std::ssize(margins_[i]));
-      if (excess == 0) continue;
-      const auto last = margins_[i].begin() + (excess - 1);
+      const std::int64_t excess = std::ssize(margins_[i]) - picture_.colors[i].stock;
+      if (excess <= 0) continue;
+      const auto last = margins_[i].begin() + static_cast<std::ptrdiff_t>(excess - 1);
       std::nth_element(margins_[i].begin(), last, margins_[i].end());
       // Those who stay lose more: the price goes half-way to theirs. Errors answer to a price of themselves, so that it comes by and by.
       const double next = *std::min_element(last + 1, margins_[i].end());
