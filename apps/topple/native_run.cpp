@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "text.h"
 #include "topple/run.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::size_t kMostText = std::size_t{256} << 20U;  // [bytes] of a layout
 constexpr std::chrono::milliseconds kLook{100};             // a closed page is noticed after so long
 constexpr std::chrono::milliseconds kStretch{10};
+constexpr int kLooksWaited = 50;  // for a run whose page has stopped it, until this is noticed and another one may begin
 
 void append(const std::vector<std::uint8_t>& piece, std::string& bytes) { bytes.append(piece.begin(), piece.end()); }
 
@@ -45,6 +47,7 @@ class NativeRun {
     over_ = !advance();
     if (over_) {
       append(writer_.end(), bytes);
+      place_.reset();  // Before the page can know that the run is over, and order the next one.
     } else {
       for (auto piece = writer_.more(); !piece.empty(); piece = writer_.more()) append(piece, bytes);
     }
@@ -73,9 +76,18 @@ class NativeRun {
   bool over_ = false;
 };
 
+/// Takes the one place there is, soon if not at once. @returns Whether it was to be had.
+bool take_place(std::atomic<bool>& taken) {
+  for (int look = 0; taken.exchange(true); ++look) {
+    if (look == kLooksWaited) return false;
+    std::this_thread::sleep_for(kLook);
+  }
+  return true;
+}
+
 std::expected<NextBytes, Refusal> begin(const std::string& text, int threads, int lanes, const std::shared_ptr<std::atomic<bool>>& taken) {
   constexpr int kBusy = 503, kBadLayout = 422;
-  if (taken->exchange(true)) return std::unexpected(Refusal{kBusy, "This program is running another layout; one at a time."});
+  if (!take_place(*taken)) return std::unexpected(Refusal{kBusy, "This program is running another layout; one at a time."});
   auto place = std::make_unique<Place>(taken);
   Result<Layout> layout = read_layout(text, "layout.toml");
   if (!layout) return std::unexpected(Refusal{kBadLayout, layout.error().message});

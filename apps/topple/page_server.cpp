@@ -17,6 +17,8 @@ namespace {
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr int kFirstPort = 8017;
 constexpr int kPortsTried = 64;
+/// A page that is busy with what has come takes nothing for a while, a long recording's for many seconds: it is not gone for that.
+constexpr std::chrono::seconds kMostPatience{300};
 
 /// What the page may do in the browser: its own scripts, workers and pictures that it made itself, and nothing from elsewhere.
 constexpr const char* kPolicy =
@@ -110,6 +112,7 @@ Result<PageServer> PageServer::listen(Site site, int port) {
   State& state = *page.state_;
   state.site = std::move(site);
   state.server.set_socket_options(set_own_port);
+  state.server.set_write_timeout(kMostPatience);
   state.server.set_keep_alive_timeout(1);  // So that Ctrl-C does not wait long for a browser that holds its connection.
   state.server.set_payload_max_length(0);
   state.server.set_default_headers({{"Content-Security-Policy", kPolicy},

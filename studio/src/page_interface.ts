@@ -31,6 +31,8 @@ export interface PageInterface {
   /** What the page's own code cost in the last frames [ms]. */
   readonly frameCosts: number[];
   seek(time: number): void;
+  /** Stops playing, whether it goes on or has come to its end by itself. */
+  pause(): void;
   choose(brick: number): void;
   setWay(way: Way): void;
   /** Tilt that the tracks give for a brick at the playhead's time; > 0 the way it heads. */
@@ -49,6 +51,8 @@ export interface PageInterface {
   /** Looks from a place at a place [m, in the layout's axes]. */
   lookFrom(position: [number, number, number], target: [number, number, number]): void;
   readonly mode: Mode;
+  /** Whether the camera stands where it is meant to: it neither flies nor is about to. */
+  readonly arrived: boolean;
   /** The layout being drawn. */
   readonly text: string;
   /** Its bricks, as the engine put them down. */
@@ -76,7 +80,7 @@ declare global {
   }
 }
 
-export function installPageInterface(player: Player, stage: Stage, studio: Studio, page: { mode: () => Mode; sound: Sound }): void {
+export function installPageInterface(player: Player, stage: Stage, studio: Studio, page: { mode: () => Mode; arrived: () => boolean; sound: Sound }): void {
   stage.onFrame = () => page.sound.follow();
   window.topple = {
     get loaded() { return player.loaded !== null && player.recording!.bricks.count > 0 && stage.playhead !== null; },
@@ -91,6 +95,7 @@ export function installPageInterface(player: Player, stage: Stage, studio: Studi
     get headings() { return player.recording?.bricks.heading ?? new Float64Array(0); },
     get frameCosts() { return stage.costs; },
     get mode() { return page.mode(); },
+    get arrived() { return page.arrived(); },
     get text() { return studio.text; },
     get drawn() { return studio.layout?.bricks ?? 0; },
     get settled() { return studio.settled; },
@@ -112,6 +117,7 @@ export function installPageInterface(player: Player, stage: Stage, studio: Studi
       player.seek(time);
       stage.wake();
     },
+    pause: () => void (player.playing = false),
     choose: (brick) => player.choose(brick),
     setWay: (way) => stage.setWay(way),
     tilt: (brick) => {

@@ -42,6 +42,12 @@ export class Session {
   private frameNext = true;
   private noteTimer = 0;
   private starting = false;
+  /** Counts what is brought: of several files or links only the last one is opened, whichever is read first. */
+  private brought = 0;
+  /** Counts what is shown to be watched: a run that goes on while something else is opened is not shown over it. */
+  private shown = 0;
+  /** The camera is about to come nearer: once the view has the size in which a run is watched. */
+  private nearing = 0;
 
   constructor(
     private readonly player: Player,
@@ -76,11 +82,18 @@ export class Session {
     return toldByProgram()?.dataset.recording === 'no';
   }
 
+  /** Whether the camera stands where it is meant to: it neither flies nor is about to. */
+  get arrived(): boolean {
+    return this.nearing === 0 && !this.stage.view?.rig.flying;
+  }
+
   open(order: Order): void {
     this.cancelOpening?.();
     this.cancelOpening = openRecording(order, this.player, {
       slow: (is) => (this.slow = is),
       opened: () => {
+        this.shown++;
+        this.studio.stop();
         this.finished = null;
         this.mode = 'watch';
         this.showFresh(this.player.recording as Recording);
@@ -96,19 +109,28 @@ export class Session {
   }
 
   async openFile(file: File): Promise<void> {
-    if (/\.toml$/i.test(file.name)) return void (await this.takeLayout(await file.text(), file.name));
+    const mine = ++this.brought;
     const begins = await file.slice(0, 6).text();
+    if (/\.toml$/i.test(file.name)) {
+      const text = await file.text();
+      if (mine === this.brought) await this.takeLayout(text, file.name);
+      return;
+    }
     if (!/\.topple$/i.test(file.name) && begins !== 'TOPPLE') {
       this.player.failure = `${file.name} is neither a layout (.toml) nor a recording (.topple).`;
       return;
     }
+    const bytes = await file.arrayBuffer();
+    if (mine !== this.brought) return;
     this.player.summary = null;
-    this.open({ bytes: await file.arrayBuffer() });
+    this.open({ bytes });
   }
 
   /** Opens what somebody brought, if it is a layout; else says every problem and leaves what is open. @returns Whether it is one. */
   private async takeLayout(text: string, name: string, promised = ''): Promise<boolean> {
+    const mine = ++this.brought;
     const problems = await this.studio.problemsOf(text, name);
+    if (mine !== this.brought) return true;
     if (problems.length === 0) this.openLayout(text, promised);
     else {
       const more = problems.length > kProblems ? [`and ${problems.length - kProblems} more.`] : [];
@@ -119,6 +141,7 @@ export class Session {
 
   /** Another layout to draw on; the one before can be had back by undo. */
   openLayout(text: string, promised = ''): void {
+    this.cancelOpening?.();
     this.frameNext = true;
     this.player.failure = '';
     this.setMode('draw', true);
@@ -187,7 +210,8 @@ export class Session {
     const { player, stage, studio } = this;
     if (next === 'compare' && !bare && this.fromElsewhere) {
       this.takeOver(this.fromElsewhere);
-      void studio.settle().then(() => this.setMode(next, true)); // compared is what the engine has read
+      const { mode } = this;
+      void studio.settle().then(() => this.mode === mode && this.setMode(next, true)); // compared is what the engine has read
       return;
     }
     this.mode = next;
@@ -195,6 +219,7 @@ export class Session {
     player.playing = false;
     stage.setDrawing(next === 'draw');
     if (next === 'draw') {
+      this.shown++;
       studio.stop();
       if (!bare && this.fromElsewhere) this.editRecording(this.fromElsewhere);
       else if (!bare) this.showLayout(studio.layout?.recording ?? null);
@@ -216,7 +241,7 @@ export class Session {
   private editRecording(recipe: Recording['recipe']): void {
     this.frameNext = true;
     this.takeOver(recipe);
-    if (this.studio.layout) this.showLayout(this.studio.layout.recording);
+    if (this.studio.settled && this.studio.layout) this.showLayout(this.studio.layout.recording);
   }
 
   private showRun(run: Finished): void {
@@ -230,36 +255,47 @@ export class Session {
     if (this.starting) return;
     this.starting = true;
     await studio.settle(); // a tap may come before the engine has seen the last stroke
+    if (this.mode === 'draw') await studio.over; // and before a run that was stopped has heard it
     this.starting = false;
     const { layout, promised } = studio;
     if (this.mode !== 'draw' || studio.problems.length || studio.empty || !layout || studio.running || layout.doubts.some((one) => one.kind === 'overlap')) return;
+    const mine = ++this.shown;
     this.finished = null;
     player.show(layout.recording);
     stage.replace(layout.recording);
     this.mode = 'watch';
     this.screen.clear();
     stage.setDrawing(false);
-    requestAnimationFrame(() => requestAnimationFrame(() => stage.closeIn())); // once the view has the size in which it is watched
+    this.comeNear(mine);
     player.growing = true;
     player.expected = studio.expected + 0.7; // and a second for what still settles
     player.speed = 1;
     player.playing = true;
     const run = await studio.run({
       grown: (loaded) => {
-        if (this.mode === 'draw') return;
+        if (mine !== this.shown) return;
         player.grow(loaded, false);
         stage.grow(loaded.recording);
       },
       progress: () => undefined,
     });
+    if (mine !== this.shown) return;
     player.growing = false;
     if (!run) return this.setMode('draw');
-    if ((this.mode as Mode) === 'draw') return;
     this.finished = run;
     const { playing } = player;
     this.showRun(run);
     if (playing) player.play();
     if (promised) this.say(this.promiseWords(promised, run.hash));
+  }
+
+  /** Two frames from now the view has the size in which a run is watched. */
+  private comeNear(run: number): void {
+    this.nearing++;
+    requestAnimationFrame(() => requestAnimationFrame(() => {
+      this.nearing--;
+      if (run === this.shown && this.mode === 'watch') this.stage.closeIn(); // a run that was refused or left at once leaves the table as it was
+    }));
   }
 
   private promiseWords(promised: string, hash: string): string {

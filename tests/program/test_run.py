@@ -4,7 +4,7 @@ import json
 import signal
 import unittest
 
-from program import BROKEN_ROW, ENDLESS, PATIENCE_S, ROW, ProgramTest, interrupt, start, wait_until
+from program import BROKEN_ROW, ENDLESS, PATIENCE_S, ROW, ProgramTest, interrupt, start, topple, wait_until
 
 
 class Run(ProgramTest):
@@ -84,7 +84,7 @@ class Run(ProgramTest):
     def test_the_summary_for_people_is_on_standard_output(self):
         result = self.succeeds("run", self.write("row.toml", ROW))
         self.assertIn("12 fallen, 0 standing", result.stdout)
-        self.assertEqual(result.stderr, "")
+        self.assertRegex(result.stderr, r"^([\d,]+ of 12 bricks, .*\n)*$")  # A slow machine says how far it is.
 
     def test_bad_input_is_exit_code_2_and_the_message_goes_to_standard_error(self):
         layout = self.write("row.toml", ROW)
@@ -134,7 +134,8 @@ class Interrupted(ProgramTest):
     def test_a_killed_run_keeps_what_it_finished(self):
         part = self.folder / "row.topple.part"
         process = start("run", self.write("row.toml", ROW), *ENDLESS, "--out", self.folder / "row.topple")
-        wait_until(lambda: part.exists() and part.stat().st_size > 0, "the recording to grow")
+        # Its first pieces may come to the disk in parts: it is finished once it can be read.
+        wait_until(lambda: part.exists() and topple("export", part, "-o", self.folder / "events.csv", "--events").returncode == 0, "the recording to grow")
         process.send_signal(signal.SIGKILL)
         process.communicate(timeout=PATIENCE_S)
         self.assertFalse((self.folder / "row.topple").exists())

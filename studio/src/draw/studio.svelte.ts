@@ -66,6 +66,8 @@ export class Studio {
   private at = $state(0);
   private length = $state(1);
   private stopRun: (() => void) | null = null;
+  /** The run that was ordered last has come to its end. */
+  over: Promise<unknown> = Promise.resolve();
   private expectTimer = 0;
   private reads = 0;
   /** The text that `layout` or `problems` are about. */
@@ -207,7 +209,7 @@ export class Studio {
       this.showing?.(layout);
       this.expectTimer = window.setTimeout(() => void this.expect(text), 350);
     } catch (error) {
-      if (error instanceof Superseded || mine !== this.reads) return;
+      if (error instanceof Superseded || mine !== this.reads || text !== this.text) return;
       this.problems = error instanceof Refused ? error.problems.map(plainProblem) : [String((error as Error).message)];
       this.answered = text;
     }
@@ -436,12 +438,14 @@ export class Studio {
       },
     }, nativeFor(this.layout?.bricks ?? 0));
     this.stopRun = run.stop;
+    this.over = run.finished.catch(() => undefined);
     try {
       const finished = await run.finished;
       const whole = finished.loaded.recording.end.reason !== 5;
       if (text === this.text && whole && !model) this.hash = finished.hash;
       return finished;
     } catch (error) {
+      if (error instanceof Superseded) return null; // stopped before it began
       this.problems = error instanceof Refused ? error.problems.map(plainProblem) : [(error as Error).message];
       return null;
     } finally {

@@ -20,7 +20,7 @@ export class Refused extends Error {
   }
 }
 
-/** A newer order took its place. */
+/** A newer order took its place, or it was taken back before anything was done. */
 export class Superseded extends Error {
   override name = 'Superseded';
 }
@@ -80,6 +80,7 @@ export class EngineClient {
     if (!waiting) return;
     if (report.kind === 'draft') waiting.resolve({ ...report.draft, recording: report.recording } as never);
     else if (report.kind === 'over') waiting.resolve(report as never);
+    else if (report.kind === 'unbegun') waiting.reject(new Superseded());
     else if (report.kind === 'problems') waiting.reject(new Refused(report.problems));
     else waiting.reject(new Error(report.message));
   }

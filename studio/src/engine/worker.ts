@@ -28,6 +28,8 @@ export type EngineReport =
   | { kind: 'draft'; id: number; draft: Omit<Draft, 'scene'>; recording: Recording }
   | { kind: 'problems'; id: number; problems: string[] }
   | { kind: 'broken'; id: number; message: string }
+  /** A run was stopped before it began. */
+  | { kind: 'unbegun'; id: number }
   | { kind: 'progress'; id: number; time: number; arrived: number }
   | { kind: 'grown'; id: number; loaded: Loaded; over: false }
   | { kind: 'over'; id: number; loaded: Loaded; hash: string; bytes: Uint8Array<ArrayBuffer>; cost: number };
@@ -40,7 +42,8 @@ const kLookEvery = 250;
 let engine: Engine | null = null;
 /** Orders wait for it. */
 let loading: Promise<void> = Promise.resolve();
-let running = -1;
+/** Runs that are ordered and not over, and how each is stopped, whether it has begun or not. */
+const going = new Map<number, AbortController>();
 /** Runs come one after the other. */
 let queue: Promise<void> = Promise.resolve();
 
@@ -49,12 +52,14 @@ const tell = (report: EngineReport, transfer: Transferable[] = []): void => self
 self.onmessage = (message: MessageEvent<EngineOrder>) => {
   const order = message.data;
   if (order.kind === 'load') loading = load(order.url);
-  else if (order.kind === 'stop') running = running === order.id ? -1 : running;
+  else if (order.kind === 'stop') going.get(order.id)?.abort();
   else if (order.kind === 'read') void attempt(order.id, () => read(order.id, order.source));
   else {
-    running = -1;
+    for (const before of going.values()) before.abort();
     const { id, source, native } = order;
-    queue = queue.then(() => attempt(id, () => (native ? runNative(id, source, native) : run(id, source))));
+    const stop = new AbortController();
+    going.set(id, stop);
+    queue = queue.then(() => attempt(id, () => (native ? runNative(id, source, native, stop.signal) : run(id, source, stop.signal)))).then(() => void going.delete(id));
   }
 };
 
@@ -100,13 +105,12 @@ const breathe = (): Promise<void> =>
     port2.postMessage(0);
   });
 
-async function run(id: number, source: Source): Promise<void> {
+async function run(id: number, source: Source, stop: AbortSignal): Promise<void> {
   const began = performance.now();
   let computed = 0;
   const c = engine as Engine;
   const growing = new GrowingRecording();
   growing.add(c.start(source.text, source.name, source.overrides));
-  running = id;
   let steps = 1;
   let looked = began;
   for (;;) {
@@ -116,7 +120,7 @@ async function run(id: number, source: Source): Promise<void> {
     computed += took;
     steps = Math.max(1, Math.min(65536, took < 1 ? steps * 2 : Math.floor((steps * kStretch) / took)));
     if (!more) break;
-    if (running !== id) {
+    if (stop.aborted) {
       c.stop();
       break;
     }
@@ -136,35 +140,37 @@ async function run(id: number, source: Source): Promise<void> {
 
 function lookAt(id: number, growing: GrowingRecording): void {
   if (!growing.worthALook) return;
-  const recording = growing.look(false);
-  if (recording.duration > 0) tellLoaded(recording, (loaded) => ({ kind: 'grown', id, loaded, over: false }));
+  const recording = growing.glance(false);
+  if (recording && recording.duration > 0) tellLoaded(recording, (loaded) => ({ kind: 'grown', id, loaded, over: false }));
 }
 
 /** The same recording, from the program that serves the page: it comes in pieces as the run goes on. A stop ends both. */
-async function runNative(id: number, source: Source, address: string): Promise<void> {
+async function runNative(id: number, source: Source, address: string, stop: AbortSignal): Promise<void> {
   const began = performance.now();
-  const stop = new AbortController();
-  const answer = await fetch(address, { method: 'POST', body: source.text, headers: { 'content-type': 'text/plain' }, signal: stop.signal });
+  /** Null where a stop comes in between. */
+  const unlessStopped = <T>(work: Promise<T>): Promise<T | null> =>
+    work.catch((error: Error) => {
+      if (stop.aborted) return null;
+      throw error;
+    });
+  const answer = await unlessStopped(fetch(address, { method: 'POST', body: source.text, headers: { 'content-type': 'text/plain' }, signal: stop }));
+  if (!answer) return tell({ kind: 'unbegun', id });
   if (answer.status === 422) throw new LayoutError(await answer.text());
   if (!answer.ok || !answer.body) throw new Error(`the program answers ${answer.status}: ${await answer.text()}`);
   const reader = (answer.body as ReadableStream<Uint8Array<ArrayBuffer>>).getReader();
   const growing = new GrowingRecording();
-  running = id;
   let looked = began;
   for (;;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    growing.add(value);
-    if (running !== id) {
-      stop.abort();
-      break;
-    }
+    const piece = await unlessStopped(reader.read());
+    if (!piece || piece.done) break;
+    growing.add(piece.value);
     if (performance.now() - looked < kLookEvery) continue;
     looked = performance.now();
     lookAt(id, growing);
     tell({ kind: 'progress', id, time: growing.reached, arrived: 0 });
   }
-  const recording = growing.look(true);
+  const recording = stop.aborted ? growing.glance(true) : growing.look(true);
+  if (!recording) return tell({ kind: 'unbegun', id });
   const { hash } = recording.end;
   const bytes = growing.bytes();
   tellLoaded(recording, (loaded) => ({ kind: 'over', id, loaded, hash, bytes, cost: (performance.now() - began) / 1000 }));

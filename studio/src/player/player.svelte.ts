@@ -52,6 +52,7 @@ export class Player {
     this.failure = '';
     this.time = 0;
     this.playing = false;
+    this.growing = false;
     this.chosen = -1;
     this.range = null;
     this.slowed = null;

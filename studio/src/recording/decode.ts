@@ -8,6 +8,11 @@ import { EndReason, kNoBrick, type Energy, type Recipe, type Recording, type Run
 
 export { FormatError } from './payload.ts';
 
+/** What there is ends before the bricks; more of it may come. */
+export class TooShort extends FormatError {
+  override name = 'TooShort';
+}
+
 const kMagic = 'TOPPLE01';
 const kPieceHead = 16;
 
@@ -34,7 +39,7 @@ export function decodeRecording(bytes: Uint8Array, progress?: (p: DecodeProgress
 }
 
 function checkMagic(bytes: Uint8Array): void {
-  if (bytes.length === 0) throw new FormatError('The file is empty.');
+  if (bytes.length === 0) throw new TooShort('The file is empty.');
   const head = String.fromCharCode(...bytes.subarray(0, kMagic.length));
   if (head === kMagic) return;
   if (/^TOPPLE\d\d$/.test(head)) {
@@ -102,7 +107,7 @@ class Reading {
   finish(size: number): Recording {
     const { recipe, scene } = this;
     if (!recipe || !scene || this.bricks.count === 0) {
-      throw new FormatError(`The file was cut off after ${size} bytes, before its bricks. Nothing can be shown.`);
+      throw new TooShort(`The file was cut off after ${size} bytes, before its bricks. Nothing can be shown.`);
     }
     const bricks = this.bricks.finish();
     const { tracks, hinged, free } = this.tracks.finish(bricks.count);

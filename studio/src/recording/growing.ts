@@ -1,6 +1,6 @@
 /** A recording that comes in pieces while its run goes on: what can be played of it so far. */
 
-import { decodeRecording } from './decode.ts';
+import { decodeRecording, TooShort } from './decode.ts';
 import { joinBytes } from './join_bytes.ts';
 import { EventKind, type Recording } from './types.ts';
 
@@ -33,6 +33,16 @@ export class GrowingRecording {
     if (!over) recording.duration = settledTime(recording);
     this.reached = recording.duration;
     return recording;
+  }
+
+  /** The same; null where not even its bricks have come. */
+  glance(over: boolean): Recording | null {
+    try {
+      return this.look(over);
+    } catch (error) {
+      if (error instanceof TooShort) return null;
+      throw error;
+    }
   }
 
   /** The bytes of the recording so far: a `.topple` file. */

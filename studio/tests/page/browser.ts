@@ -8,8 +8,9 @@ import { tmpdir } from 'node:os';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
-import { chromium, type Browser } from 'playwright-core';
+import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
 import { makeRecording } from '../make_recording.ts';
+import { kPatience } from '../patience.ts';
 
 const kHere = fileURLToPath(new URL('.', import.meta.url));
 const kDist = join(kHere, '../../dist');
@@ -17,6 +18,9 @@ export const kOut = join(kHere, '../out');
 export const kRoot = join(kHere, '../../..');
 /** The program of this tree, or another. It may not be there. */
 export const kProgram = process.env.TOPPLE_PROGRAM ?? join(kRoot, 'build/release/topple');
+
+/** TOPPLE_SLOWER=6 makes the page's own thread so much slower: what a test then finds too early, it finds too early on a slower machine. */
+const kSlower = Number(process.env.TOPPLE_SLOWER ?? 1);
 
 const kTypes: Record<string, string> = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml', '.json': 'application/json',
@@ -66,10 +70,45 @@ async function listening(server: Server): Promise<Site> {
 }
 
 /** Debian's Chromium (or TOPPLE_CHROMIUM), drawing in software. @param more Its flags. */
-export function launch(webGl = true, more: string[] = []): Promise<Browser> {
+export async function launch(webGl = true, more: string[] = []): Promise<Browser> {
   const flags = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run', '--mute-audio'];
   const drawing = webGl ? ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu', '--disable-3d-apis', '--disable-webgl', '--disable-webgl2'];
-  return chromium.launch({ executablePath: process.env.TOPPLE_CHROMIUM ?? '/usr/bin/chromium', args: [...flags, ...drawing, ...more] });
+  const browser = await chromium.launch({ executablePath: process.env.TOPPLE_CHROMIUM ?? '/usr/bin/chromium', args: [...flags, ...drawing, ...more], timeout: kPatience });
+  const newContext = browser.newContext.bind(browser);
+  browser.newContext = async (options) => patient(await newContext(options));
+  browser.newPage = async (options) => (await browser.newContext(options)).newPage();
+  return browser;
+}
+
+/** Its pages are waited for as long as a slow machine needs. */
+function patient(context: BrowserContext): BrowserContext {
+  context.setDefaultTimeout(kPatience);
+  if (kSlower > 1) context.on('page', (page) => void context.newCDPSession(page).then((session) => session.send('Emulation.setCPUThrottlingRate', { rate: kSlower })));
+  return context;
+}
+
+/** Until the run of the drawn layout is over. */
+export async function toppled(page: Page): Promise<void> {
+  await page.waitForFunction(() => window.topple.hash !== '');
+}
+
+/** Until the camera stands where it is meant to: it comes nearer only once the view has the size in which a run is watched. */
+export async function arrived(page: Page): Promise<void> {
+  await page.waitForFunction(() => window.topple.arrived);
+}
+
+/** Stops playing and puts the bricks where they are at a time [s]; the space bar would play again where the end has come by itself. */
+export async function pauseAt(page: Page, time: number): Promise<void> {
+  await page.evaluate((at) => {
+    window.topple.pause();
+    window.topple.seek(at);
+  }, time);
+  await drawn(page);
+}
+
+/** Two frames: what was asked for has been drawn. */
+export async function drawn(page: Page): Promise<void> {
+  await page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))));
 }
 
 /**

@@ -10,7 +10,7 @@ import type { Browser, BrowserContext, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { kGallery } from '../../src/draw/gallery.ts';
 import { makeFragment } from '../../src/draw/link.ts';
-import { kOut, kProgram, kRoot, launch, serve, serveFolder, type Site } from './browser.ts';
+import { arrived, drawn as drawnIn, kOut, kProgram, kRoot, launch, pauseAt, serve, serveFolder, toppled, type Site } from './browser.ts';
 
 const kAxe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 const golden = readFileSync(join(kRoot, 'tests/golden/hashes.txt'), 'utf8').split('\n').filter((line) => line && !line.startsWith('#')).map((line) => line.split(' '));
@@ -61,8 +61,7 @@ async function drag(from: [number, number], to: [number, number]): Promise<void>
 }
 const tool = (name: string): Promise<void> => page.getByRole('button', { name, exact: true }).click();
 /** Until the engine has answered to the text as it is now. */
-const settled = (of = page): Promise<unknown> => of.waitForFunction(() => window.topple.settled, null, { timeout: 30000 });
-const toppled = (of = page): Promise<unknown> => of.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
+const settled = (of = page): Promise<unknown> => of.waitForFunction(() => window.topple.settled);
 async function axe(of: Page): Promise<string[]> {
   await of.evaluate(kAxe);
   const found = await of.evaluate(async () => (await (window as never as { axe: { run: () => Promise<{ violations: { id: string; impact: string; nodes: { html: string }[] }[] }> } }).axe.run()).violations);
@@ -86,7 +85,7 @@ describe('an empty page', () => {
     await expect.poll(() => one.getByRole('status').filter({ hasText: 'missing' }).innerText()).toMatch(/^Red: \d+ used, 3 available\. \d+ are missing\.$/);
     await one.reload();
     await one.waitForFunction(() => window.topple?.drawn > 5);
-    expect(await one.getByLabel('Red available').inputValue()).toBe('3');
+    await expect.poll(() => one.getByLabel('Red available').inputValue()).toBe('3');
     await one.getByLabel('Red available').fill('');
     await one.getByLabel('Red available').press('Enter');
     await expect.poll(() => one.getByText('missing').count()).toBe(0);
@@ -99,7 +98,7 @@ describe('an empty page', () => {
     await one.goto(`${site.url}?still=off`);
     await one.getByRole('button', { name: 'A spiral', exact: true }).click();
     await expect.poll(() => one.evaluate(() => window.topple.drawn)).toBeGreaterThan(50);
-    expect(await one.getByRole('button', { name: 'Select', exact: true }).getAttribute('aria-pressed')).toBe('true');
+    await expect.poll(() => one.getByRole('button', { name: 'Select', exact: true }).getAttribute('aria-pressed')).toBe('true');
     await other.close();
   });
 });
@@ -173,8 +172,8 @@ describe('a new user', () => {
   test('topples it with the space bar: all fall, and the hash is that of the program', async () => {
     await expect.poll(() => page.evaluate(() => window.topple.doubts)).toEqual([]);
     await page.keyboard.press('Space');
-    await page.waitForFunction(() => window.topple.hash !== '', null, { timeout: 50000 });
-    expect(await page.evaluate(() => window.topple.mode)).toBe('watch');
+    await toppled(page);
+    await expect.poll(() => page.evaluate(() => window.topple.mode)).toBe('watch');
     await page.keyboard.press('End');
     await expect.poll(() => page.evaluate(() => window.topple.fallen === window.topple.bricks)).toBe(true);
     if (!existsSync(kProgram)) return;
@@ -188,11 +187,11 @@ describe('a new user', () => {
   test('hears the hits once the sound is on, in slow motion too', async () => {
     await page.getByRole('button', { name: 'Sound' }).click();
     await page.locator('canvas').first().focus();
-    await page.keyboard.press('Home');
+    await pauseAt(page, 0);
     await page.keyboard.press('[');
     await page.keyboard.press('Space');
-    await expect.poll(() => page.evaluate(() => window.topple.clicks), { timeout: 20000 }).toBeGreaterThan(2);
-    await page.keyboard.press('Space');
+    await expect.poll(() => page.evaluate(() => window.topple.clicks)).toBeGreaterThan(2);
+    await pauseAt(page, 0);
     await page.getByRole('button', { name: 'Sound' }).click();
   });
 
@@ -200,7 +199,7 @@ describe('a new user', () => {
     for (const name of ['Hits', 'Trace', 'Ghost']) await page.getByRole('button', { name, exact: true }).click();
     for (const heat of ['arrival', 'speed', 'impulse', '']) await page.locator('#heat').selectOption(heat);
     await page.evaluate(() => window.topple.seek(0.5 * window.topple.duration));
-    expect(await page.locator('path.way').count()).toBe(1);
+    await expect.poll(() => page.locator('path.way').count()).toBe(1);
     for (const name of ['Hits', 'Trace', 'Ghost']) await page.getByRole('button', { name, exact: true }).click();
   });
 
@@ -223,21 +222,23 @@ describe('a new user', () => {
   test('compares three models side by side', async () => {
     await page.getByRole('button', { name: 'Compare' }).click();
     const rigid = page.getByRole('article', { name: 'Rigid' });
-    await expect.poll(() => rigid.innerText(), { timeout: 30000 }).toMatch(/Front speed\s+[\d.]+ m\/s[\s\S]*Hash/);
+    await expect.poll(() => rigid.innerText()).toMatch(/Front speed\s+[\d.]+ m\/s[\s\S]*Hash/);
     // Each of the three views shows its model's bricks at the one time: what has fallen differs from what stands.
     const views = page.locator('.views');
     const box = (await views.boundingBox())!;
     const colorful = (): Promise<number[]> => colorsIn(page, box, 3);
-    expect(Math.min(...(await colorful()))).toBeGreaterThan(20);
+    await expect.poll(async () => Math.min(...(await colorful()))).toBeGreaterThan(20);
     await page.getByLabel('Time').fill('0.6');
     await expect.poll(() => views.innerText()).toMatch(/Rigid\s+[1-9]\d* of/);
     // One camera for all: turned in one view, every view turns.
-    const before = await page.screenshot({ clip: { ...box, x: box.x + (2 * box.width) / 3, width: box.width / 3 } });
+    const third = (): Promise<Buffer> => page.screenshot({ clip: { ...box, x: box.x + (2 * box.width) / 3, width: box.width / 3 } });
+    let before = await third();
+    await expect.poll(async () => before.equals((before = await third()))).toBe(true); // the picture of that time is there
     await page.mouse.move(box.x + 60, box.y + 120);
     await page.mouse.down();
     await page.mouse.move(box.x + 160, box.y + 110, { steps: 3 });
     await page.mouse.up();
-    await expect.poll(async () => before.equals(await page.screenshot({ clip: { ...box, x: box.x + (2 * box.width) / 3, width: box.width / 3 } }))).toBe(false);
+    await expect.poll(async () => before.equals(await third())).toBe(false);
     await page.keyboard.press('End');
     await page.getByRole('button', { name: 'Play all three' }).click();
     await page.getByRole('button', { name: 'Draw', exact: true }).click();
@@ -251,7 +252,7 @@ describe('a new user', () => {
     const friend = listen(await other.newPage());
     await friend.goto(`${site.url}?still=off${link}`);
     await friend.waitForFunction((mine) => window.topple?.text === mine && window.topple.settled, await text());
-    const note = friend.getByText(/Same result as the sender’s \(hash [0-9a-f ]+\)/).waitFor({ timeout: 50000 });
+    const note = friend.getByText(/Same result as the sender’s \(hash [0-9a-f ]+\)/).waitFor();
     await friend.keyboard.press('Space');
     await toppled(friend);
     expect(link.endsWith(await friend.evaluate(() => window.topple.hash))).toBe(true);
@@ -264,7 +265,7 @@ describe('a new user', () => {
     const friend = listen(await other.newPage());
     await friend.goto(`${site.url}?still=off${link.slice(0, -4)}0000`);
     await friend.waitForFunction(() => window.topple?.drawn > 0 && window.topple.settled);
-    const note = friend.getByText(/The sender’s result was another one: hash [0-9a-f ]+ there, [0-9a-f ]+ here/).waitFor({ timeout: 50000 });
+    const note = friend.getByText(/The sender’s result was another one: hash [0-9a-f ]+ there, [0-9a-f ]+ here/).waitFor();
     await friend.keyboard.press('Space');
     await note;
     await other.close();
@@ -384,17 +385,18 @@ describe('the page', () => {
     await look('draw');
     await one.keyboard.press('Space');
     await toppled(one);
-    await one.keyboard.press('Space');
-    await one.evaluate(() => window.topple.seek(1));
+    await arrived(one);
+    await pauseAt(one, 1);
     await look('watch');
     await one.keyboard.press('f');
     await one.locator('.legend').getByText('brick on brick').waitFor();
     await look('forces');
     await one.evaluate(() => window.topple.choose(9));
+    await drawnIn(one);
     await look('forces of one');
     await one.keyboard.press('f');
     await one.getByRole('button', { name: 'Compare' }).click();
-    await one.getByRole('article', { name: 'Rigid' }).getByText('Hash').waitFor({ timeout: 50000 });
+    await one.getByRole('article', { name: 'Rigid' }).getByText('Hash').waitFor();
     await look('compare');
     await one.keyboard.press('?');
     await look('keys');
@@ -415,9 +417,8 @@ test.skipIf(!existsSync(kProgram))('topple studio --export writes the page; topp
   const visitor = await browser.newPage();
   const said: string[] = [];
   visitor.on('console', (message) => message.type() === 'error' && said.push(message.text()));
-  await visitor.goto(plain.url);
+  await visitor.goto(plain.url, { waitUntil: 'networkidle' }); // all that is asked for has been answered
   await visitor.waitForFunction(() => window.topple?.mode === 'draw');
-  await visitor.waitForTimeout(500);
   expect(said).toEqual([]);
   await visitor.close();
   await plain.close();

@@ -4,7 +4,7 @@ import { mkdir } from 'node:fs/promises';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { makeFragment } from '../../src/draw/link.ts';
-import { kOut, launch, makeRecording, recordingOf, serve, type Site } from './browser.ts';
+import { drawn, kOut, launch, makeRecording, recordingOf, serve, toppled, type Site } from './browser.ts';
 
 let browser: Browser;
 let site: Site;
@@ -21,29 +21,27 @@ afterAll(async () => {
 });
 
 describe('what cannot be shown is said in words', () => {
-  async function wordsFor(recording: Uint8Array | null): Promise<string> {
+  async function expectWords(recording: Uint8Array | null, words: RegExp): Promise<void> {
     const other = await serve(recording);
     const page = await browser.newPage({ viewport: { width: 800, height: 500 } });
     await page.goto(other.url);
-    await page.locator('.empty').waitFor();
-    const words = await page.locator('.empty').innerText();
+    await expect.poll(() => page.locator('.empty').innerText()).toMatch(words);
     await page.close();
     await other.close();
-    return words;
   }
 
   test('no recording: a bare table to draw on', async () => {
-    expect(await wordsFor(null)).toMatch(/Draw a line. Bricks will stand along it/);
+    await expectWords(null, /Draw a line. Bricks will stand along it/);
   });
 
   test('a foreign file', async () => {
-    expect(await wordsFor(new TextEncoder().encode('something else entirely'))).toMatch(/not a recording of Topple/);
+    await expectWords(new TextEncoder().encode('something else entirely'), /not a recording of Topple/);
   });
 
   test('a damaged file', async () => {
     const bytes = makeRecording({ count: 5 });
     bytes[400] ^= 1;
-    expect(await wordsFor(bytes)).toMatch(/Damaged in the piece \w{4} at byte \d+/);
+    await expectWords(bytes, /Damaged in the piece \w{4} at byte \d+/);
   });
 
   test('a file that is dropped takes the place of what was open, a bad one leaves it', async () => {
@@ -57,7 +55,7 @@ describe('what cannot be shown is said in words', () => {
     expect(await page.evaluate(() => window.topple.bricks)).toBe(12);
     await give('seven.topple', makeRecording({ count: 7 }));
     await expect.poll(() => page.evaluate(() => window.topple.bricks)).toBe(7);
-    expect(await page.getByRole('alert').count()).toBe(0);
+    await expect.poll(() => page.getByRole('alert').count()).toBe(0);
     await page.close();
   });
 
@@ -66,7 +64,7 @@ describe('what cannot be shown is said in words', () => {
     const page = await plain.newPage({ viewport: { width: 1100, height: 640 } });
     await page.goto(site.url);
     await page.waitForFunction(() => window.topple?.loaded);
-    expect(await page.locator('.plan [role=status]').innerText()).toMatch(/no WebGL 2\. Plots and numbers still work/);
+    await expect.poll(() => page.locator('.plan [role=status]').innerText()).toMatch(/no WebGL 2\. Plots and numbers still work/);
     await page.keyboard.press('End');
     await expect.poll(() => page.locator('[data-test=read-out]').innerText()).toMatch(/12 \/ 12/);
     await page.keyboard.press('n');
@@ -84,10 +82,10 @@ test('a link opened without WebGL: a sentence, the layout is there, it can be ru
   const page = await plain.newPage({ viewport: { width: 1100, height: 640 } });
   await page.goto(`${bare.url}${await makeFragment({ text, hash: '' })}`);
   await page.waitForFunction(() => window.topple?.drawn === 9 && window.topple.settled);
-  expect(await page.locator('.plan [role=status]').innerText()).toMatch(/no WebGL 2[\s\S]*Layouts can be opened and run/);
-  expect(await page.locator('.empty').count()).toBe(0); // nothing lies over the plan
+  await expect.poll(() => page.locator('.plan [role=status]').innerText()).toMatch(/no WebGL 2[\s\S]*Layouts can be opened and run/);
+  await expect.poll(() => page.locator('.empty').count()).toBe(0); // nothing lies over the plan
   await page.getByRole('button', { name: /Topple/ }).click();
-  await page.waitForFunction(() => window.topple.hash !== '');
+  await toppled(page);
   await page.keyboard.press('End');
   await expect.poll(() => page.locator('[data-test=read-out]').innerText()).toMatch(/9 \/ 9/);
   await page.goto('about:blank');
@@ -122,12 +120,13 @@ describe('at every size', () => {
               cut: buttons.some((b) => b.getBoundingClientRect().right > innerWidth || b.getBoundingClientRect().bottom > innerHeight),
             };
           }),
-          { timeout: 20000 },
         )
         .toEqual({ wide: false, view: true, canvas: true, panel: true, cut: false });
       const opener = page.getByRole('button', { name: width < 720 ? 'Details' : 'Panel' });
       if (width >= 960) continue;
       await opener.click();
+      await page.locator('.panel, .scroll').first().waitFor();
+      await drawn(page);
       const open = await page.evaluate(() => ['.view', '.panel, .scroll'].map((part) => document.querySelector(part)!.getBoundingClientRect().toJSON()));
       expect(open[0].height, 'the view stays where it is when the panel opens').toBeGreaterThan(0.25 * height);
       expect(open[0].width).toBeGreaterThan(0.9 * width);
@@ -150,14 +149,14 @@ describe('at every size', () => {
         await page.setViewportSize({ width, height });
         await page.emulateMedia({ colorScheme, reducedMotion: 'reduce' });
         await expect.poll(() => page.evaluate(() => document.documentElement.dataset.theme)).toBe(colorScheme);
-        await page.waitForTimeout(300);
-        await page.screenshot({ path: `${kOut}/page-${width}-${colorScheme}.png` });
         // The strip of time is drawn anew with the colours of the page, not with those that it had before.
-        const shade = await page.evaluate(() => {
-          const strip = document.querySelector<HTMLCanvasElement>('.strip canvas')?.getContext('2d');
-          return strip ? strip.getImageData(6, 10, 1, 1).data[0] : -1;
+        const isLight = (): Promise<boolean> => page.evaluate(() => {
+          const strip = document.querySelector<HTMLCanvasElement>('.strip canvas')!.getContext('2d')!;
+          return strip.getImageData(6, 10, 1, 1).data[0] > 128;
         });
-        expect(shade > 128, `${width} ${colorScheme}`).toBe(colorScheme === 'light');
+        await expect.poll(isLight, { message: `${width} ${colorScheme}` }).toBe(colorScheme === 'light');
+        await drawn(page);
+        await page.screenshot({ path: `${kOut}/page-${width}-${colorScheme}.png` });
       }
     }
     await page.close();

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { crc32 } from '../../src/recording/crc.ts';
 import { decodeRecording, FormatError } from '../../src/recording/decode.ts';
+import { GrowingRecording } from '../../src/recording/growing.ts';
 import { EndReason } from '../../src/recording/types.ts';
 import { makeRecording } from '../make_recording.ts';
 import { joinBytes, PieceWriter } from '../piece_writer.ts';
@@ -89,6 +90,19 @@ describe('decoding', () => {
         expect(error).toBeInstanceOf(FormatError);
       }
     }
+  });
+
+  test('a recording that comes in pieces can be looked at once its bricks have come, and not before', () => {
+    const bricks = piecesOf(whole).find((p) => p.type === 'BRIK')!;
+    const growing = new GrowingRecording();
+    expect(growing.glance(false)).toBeNull();
+    growing.add(whole.slice(0, bricks.at + 40));
+    expect(growing.glance(false)).toBeNull();
+    growing.add(whole.slice(bricks.at + 40));
+    expect(growing.glance(true)?.bricks.count).toBe(12);
+    const damaged = new GrowingRecording();
+    damaged.add(new TextEncoder().encode('something else entirely'));
+    expect(() => damaged.glance(false)).toThrow(/not a recording/);
   });
 
   test('a bit flipped in any payload is refused by its checksum, with the piece and the byte', () => {
