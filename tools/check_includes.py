@@ -19,13 +19,14 @@ USES = {
     "recording": ["model"],
     "run": ["recording", "pivot", "hinge", "rigid"],
     "measure": ["recording"],
+    "sweep": ["run", "measure"],
     "export": ["recording", "measure", "picture"],
     "validation": ["run", "measure", "export"],
-    "all": ["run", "measure", "export", "validation"],  # include/topple/topple.h
+    "all": ["run", "measure", "sweep", "export", "validation"],  # include/topple/topple.h
     "apps": ["all"],
 }
 MODELS = ["pivot", "hinge", "rigid"]
-CORE = ["base", "layout", "picture", "model", "pivot", "hinge", "rigid", "recording", "run", "measure"]
+CORE = ["base", "layout", "picture", "model", "pivot", "hinge", "rigid", "recording", "run", "measure", "sweep"]
 
 # Third parties, and the operating system, by the chapter that may have them.
 FOREIGN = {

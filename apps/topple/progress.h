@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <string>
 
 #include "topple/run.h"
 
@@ -16,10 +18,13 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void show(const RunProgress& progress);
+  void show(std::int64_t done, std::int64_t of, const std::string& noun);  ///< "12 of 100 runs".
   void clear();  ///< Takes the bar away, so that what follows starts on an empty line.
 
  private:
   using Clock = std::chrono::steady_clock;
+  void show(double share, const std::function<std::string(double wall)>& words);
+
   Clock::time_point start_;
   Clock::time_point next_;
   bool terminal_ = false;

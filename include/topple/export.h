@@ -1,7 +1,10 @@
 /// Files: the only chapter that knows paths. Layouts, images and recordings in; recordings, tables, HDF5 and plots out.
 #pragma once
 
+#include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,5 +67,26 @@ struct ErrorCurve {
 };
 /// Draws the curves on logarithmic axes, with their slopes in the legend.
 Result<void> plot_convergence(std::span<const ErrorCurve> curves, const std::filesystem::path& path);
+
+/// A file of lines that grows with a long job, each a JSON object: what was finished is there after a kill, and is not done again.
+class KeptLines {
+ public:
+  /// Reads what is there and appends from then on; `fresh` begins anew. A last line that was cut off is left out. Makes the folder it is
+  /// in. Refuses a file that holds anything else, and a place that cannot be written. An empty path keeps nothing.
+  static Result<KeptLines> open(const std::filesystem::path& path, bool fresh);
+
+  std::span<const std::string> lines() const { return lines_; }  ///< Those that were there.
+  void add(const std::string& line);
+  const std::string& problem() const { return problem_; }  ///< Why not all that was added is on disk; empty if it is.
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  std::filesystem::path path_;
+  std::vector<std::string> lines_;
+  std::string problem_;
+};
 
 }  // namespace topple

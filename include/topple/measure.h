@@ -1,6 +1,7 @@
 /// What a run was: arrival times, front speed, who fell, who did not.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct Wave {
   double local_speed(std::size_t index, std::size_t window = 1) const;
 };
 Wave measure_wave(const Recording& recording);
+
+/// Who struck each brick first; kNoBrick for one that was pushed before, or that nobody struck.
+std::vector<BrickId> first_strikers(const Recording& recording);
+
+/// Whether each brick rests past its tip angle, leaning or flat.
+std::vector<std::uint8_t> fallen_bricks(const Recording& recording);
 
 struct RunSummary {
   std::int64_t bricks = 0;

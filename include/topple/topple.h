@@ -10,4 +10,5 @@
 #include "topple/profile.h"     // IWYU pragma: export
 #include "topple/recording.h"   // IWYU pragma: export
 #include "topple/run.h"         // IWYU pragma: export
+#include "topple/sweep.h"       // IWYU pragma: export
 #include "topple/validation.h"  // IWYU pragma: export

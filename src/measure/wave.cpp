@@ -85,11 +85,15 @@ double Wave::local_speed(std::size_t index, std::size_t window) const {
   return speed_between(*this, from, to);
 }
 
-RunSummary summarize(const Recording& recording) {
+std::vector<BrickId> first_strikers(const Recording& recording) {
+  std::vector<BrickId> by = strikes_of(recording).by;
+  for (BrickId& striker : by) striker = std::max(striker, kNoBrick);
+  return by;
+}
+
+std::vector<std::uint8_t> fallen_bricks(const Recording& recording) {
   const Layout& layout = recording.layout();
-  RunSummary summary;
-  summary.bricks = layout.brick_count();
-  summary.duration = recording.duration();
+  std::vector<std::uint8_t> fallen(layout.bricks.size());
   // Bricks of one kind that stand alike have one tip angle, and mostly follow each other.
   std::uint16_t kind = 0;
   Stance stance = Stance::standing;
@@ -101,8 +105,17 @@ RunSummary summarize(const Recording& recording) {
       stance = put.stance;
       tip = tip_angle(extents(layout.kind_of(brick), stance));
     }
-    if (std::abs(recording.rest_angle(brick)) > tip) ++summary.fallen;
+    fallen[static_cast<std::size_t>(brick)] = std::abs(recording.rest_angle(brick)) > tip ? 1 : 0;
   }
+  return fallen;
+}
+
+RunSummary summarize(const Recording& recording) {
+  RunSummary summary;
+  summary.bricks = recording.layout().brick_count();
+  summary.duration = recording.duration();
+  const std::vector<std::uint8_t> fallen = fallen_bricks(recording);
+  summary.fallen = std::count(fallen.begin(), fallen.end(), 1);
   summary.standing = summary.bricks - summary.fallen;
   summary.front_speed = measure_wave(recording).front_speed;
   return summary;

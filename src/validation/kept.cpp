@@ -1,10 +1,7 @@
 #include "validation/kept.h"
 
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -32,25 +29,11 @@ bool read_line(const std::string& line, std::map<std::string, Outcome>& runs) {
 }  // namespace
 
 Result<KeptRuns> KeptRuns::open(const std::filesystem::path& path, bool fresh) {
+  Result<KeptLines> lines = KeptLines::open(path, fresh);
+  if (!lines) return std::unexpected(lines.error());
   KeptRuns kept;
-  if (path.empty()) return kept;
-  kept.path_ = path;
-  std::error_code problem;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
-  bool whole = true;
-  // Kept runs are lines of JSON; whatever else somebody names here by mistake is not written into.
-  if (const int first = std::ifstream(path).get(); first != std::char_traits<char>::eof() && first != '{')
-    return failure("Finished runs cannot be kept in " + path.string() + ": it holds something else.");
-  if (!fresh) {
-    std::ifstream stream(path);
-    for (std::string line; std::getline(stream, line);) {
-      whole = !stream.eof();
-      read_line(line, kept.runs_);
-    }
-  }
-  kept.file_.reset(std::fopen(path.c_str(), fresh ? "wb" : "ab"));
-  if (kept.file_ == nullptr) return failure("Finished runs cannot be kept in " + path.string() + ": " + std::strerror(errno) + ".");
-  if (!whole) std::fputc('\n', kept.file_.get());
+  for (const std::string& line : lines->lines()) read_line(line, kept.runs_);
+  kept.lines_ = std::move(*lines);
   return kept;
 }
 
@@ -68,10 +51,7 @@ std::optional<Outcome> KeptRuns::find(const std::string& name) const {
 
 void KeptRuns::add(const std::string& name, const Outcome& outcome) {
   runs_[name] = outcome;
-  if (file_ == nullptr) return;
-  const std::string line = Json{{"run", name}, {"numbers", outcome.numbers}, {"profile", outcome.profile}}.dump() + "\n";
-  if (std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0) return;
-  problem_ = "Finished runs cannot be kept in " + path_.string() + ": " + std::strerror(errno) + ".";
+  lines_.add(Json{{"run", name}, {"numbers", outcome.numbers}, {"profile", outcome.profile}}.dump());
 }
 
 }  // namespace topple::validation

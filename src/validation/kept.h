@@ -1,13 +1,12 @@
 /// Finished runs on disk, a line of JSON each: an interrupted validation goes on where it was.
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 
+#include "topple/export.h"
 #include "validation/job.h"
 
 namespace topple::validation {
@@ -22,16 +21,11 @@ class KeptRuns {
 
   std::optional<Outcome> find(const std::string& name) const;
   void add(const std::string& name, const Outcome& outcome);
-  const std::string& problem() const { return problem_; }  ///< Why some of them are not on disk; empty if all are.
+  const std::string& problem() const { return lines_.problem(); }  ///< Why some of them are not on disk; empty if all are.
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Close> file_;
   std::map<std::string, Outcome> runs_;
-  std::filesystem::path path_;
-  std::string problem_;
+  KeptLines lines_;
 };
 
 }  // namespace topple::validation
