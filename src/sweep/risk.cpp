@@ -192,7 +192,8 @@ void RiskStudy::count_links(Risk& risk) const {
     for (PartRisk& risky : risk.parts) {
       const Part& part = layout().parts[risky.part];
       bool tested = false, stopped = false;
-      for (auto brick = static_cast<std::size_t>(part.first); brick < static_cast<std::size_t>(part.first + part.count); ++brick) {
+      const auto first = static_cast<std::size_t>(part.first), count = static_cast<std::size_t>(part.count);
+      for (std::size_t brick = first; brick < first + count; ++brick) {
         if (ought_[brick] == 0 || waits_for(brick, fell)) continue;
         ++stops[brick].of;
         stops[brick].count += fell[brick] == 0 ? 1 : 0;
