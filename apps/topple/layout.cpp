@@ -104,7 +104,7 @@ class LayoutVerb final : public Verb {
     }
     if (const Result<ModelConfig> model = model_config(*layout); !model) return complain(model.error(), kBadInput);
     const LayoutSummary summary = summarize(*layout);
-    const std::vector<Doubt> doubts = find_doubts(*layout, kMostDoubts);
+    const std::vector<Doubt> doubts = find_stops(*layout, kMostDoubts);
     if (json_) {
       print_json(*layout, summary, doubts);
       return kDone;

@@ -157,6 +157,9 @@ struct Doubt {
 /// The most serious first, no more than `most` of each sort.
 std::vector<Doubt> find_doubts(const Layout& layout, std::size_t most = 50);
 
+/// The same but for overlaps, of a layout that has none: read_layout() refuses those that do.
+std::vector<Doubt> find_stops(const Layout& layout, std::size_t most = 50);
+
 /// What `topple layout` prints, from the layout alone.
 struct LayoutSummary {
   struct Count {
