@@ -471,8 +471,19 @@ test('a run that is refused leaves the camera where one drew', async () => {
   await twoFrames(page);
   const table = await places();
   await page.locator('canvas').first().focus();
+  // No frame comes before the engine has answered, as on a machine that draws slowly.
+  await page.evaluate(() => {
+    const [ask, held] = [window.requestAnimationFrame.bind(window), [] as FrameRequestCallback[]];
+    window.requestAnimationFrame = (draw) => held.push(draw);
+    const letGo = (): void => {
+      window.requestAnimationFrame = ask;
+      held.forEach((draw) => ask(draw));
+    };
+    Object.assign(window, { letGo });
+  });
   await page.keyboard.press('Space');
   await page.getByLabel('Run').getByText('Hinge cannot run this').waitFor();
+  await page.evaluate(() => (window as never as { letGo: () => void }).letGo());
   await arrived(page);
   await twoFrames(page);
   expect(await places()).toBe(table);
