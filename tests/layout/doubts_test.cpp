@@ -86,6 +86,17 @@ TEST_CASE("a_tight_turn_is_told_with_its_bricks_its_angle_and_the_miss") {
                                tenths.substr(0, tenths.size() - 1) + "." + tenths.back() + " mm.");
 }
 
+TEST_CASE("a_brick_in_the_middle_of_a_part_may_be_reached_from_beside_it") {
+  // Three bricks 60 mm apart that head to +y, the first pushed; a row from the left falls on the second. Nothing falls on the third.
+  const auto doubts = doubts_of(
+      "[[push]]\nangular_speed_rad_s = 4\n[[push]]\nbrick = 3\nangular_speed_rad_s = 4\n[[row]]\nheading_deg = 90\ncount = 3\ngap_mm = 60\n"
+      "[[row]]\nfrom_mm = [-72, 67.5]\ncount = 3\ngap_mm = 16.5\n");
+  REQUIRE(doubts.size() == 1);
+  CHECK(doubts[0].kind == Doubt::Kind::beyond_reach);
+  CHECK(doubts[0].brick == 2);
+  CHECK(doubts[0].other == 1);
+}
+
 TEST_CASE("a_brick_far_from_all_has_no_neighbour") {
   const auto doubts = doubts_of(kPush + "[[row]]\ncount = 2\ngap_mm = 16.5\n[[brick]]\nat_mm = [900, 900]\n");
   REQUIRE(doubts.size() == 1);
