@@ -18,7 +18,8 @@ namespace topple {
 /// Reads a layout file; a missing file, a directory or bad UTF-8 is an error in words.
 Result<Layout> load_layout(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 
-/// Reads an image, PNG or JPEG of at most 100 million pixels, whatever its name ends in. What is no such image is an error in words.
+/// Reads an image, PNG or JPEG of at most 100 million pixels, whatever its name ends in, turned as its camera
+/// says. What is no such image is an error in words.
 Result<Image> load_image(const std::filesystem::path& path);
 
 /// Reads a `.topple` file.

@@ -1,6 +1,7 @@
 // Images by stb_image, which sees only PNG and JPEG: its other formats are not even compiled.
 #include <memory>
 
+#include "export/image_turn.h"
 #include "export/input_file.h"
 #include "topple/export.h"
 
@@ -43,7 +44,7 @@ Result<Image> load_image(const std::filesystem::path& path) {
   const std::unique_ptr<stbi_uc, Free> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, kRedGreenBlueOpacity));
   if (!pixels) return failure(name + ": is damaged, or a kind of PNG or JPEG that is not read");
   const std::size_t count = std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return Image{width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count)};
+  return turned({width, height, std::vector<std::uint8_t>(pixels.get(), pixels.get() + count)}, orientation_of(*bytes));
 }
 
 }  // namespace topple

@@ -68,6 +68,20 @@ class Picture(ProgramTest):
         copy.write_bytes(photo.read_bytes())
         self.assertRegex(self.succeeds("picture", copy, "-o", self.folder / "a.toml").stdout, r"^\d+ rows of \d+ bricks")
 
+    def test_a_photograph_stands_as_the_camera_was_held(self):
+        photo = (SOURCE / "docs" / "pictures" / "studio.jpg").read_bytes()
+        # A directory of one entry: its orientation, a quarter turn.
+        exif = b"Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0"
+        turned = self.folder / "turned.jpg"
+        turned.write_bytes(photo[:2] + b"\xff\xe1" + struct.pack(">H", len(exif) + 2) + exif + photo[2:])
+        sizes = []
+        for image in [SOURCE / "docs" / "pictures" / "studio.jpg", turned]:
+            said = self.succeeds("picture", image, "-o", self.folder / "a.toml", "--row-gap", 0, "--gap", 16.5, "--rows", 40).stdout
+            sizes.append(int(said.split()[3]))
+        # Bricks as far apart as rows: broader than high, then as much higher than broad.
+        self.assertAlmostEqual(sizes[0] * sizes[1], 1600, delta=60)
+        self.assertGreater(sizes[0], 50)
+
     def test_what_is_no_image_is_bad_input(self):
         whole = png(ELL)
         for content, says in [
