@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "topple/measure.h"
+#include "topple/picture.h"
 #include "topple/run.h"
 
 #define TOPPLE_EXPORT(name) __attribute__((export_name(#name)))
@@ -148,6 +149,32 @@ void add_contacts(std::vector<std::uint8_t>& bytes, const Model& model, const La
   }
 }
 
+/// What the page asks of a picture: pitch and row pitch [m], bricks, whether it is dithered (0 or 1); then of each colour its code 0xrrggbb
+/// and its stock, below 0 without limit. No colours: the usual ones.
+Result<Picture> picture_as_asked(const Image& image, std::span<const double> asked) {
+  PictureConfig config;
+  config.size = fit_picture(image, asked[0], asked[1], {}, static_cast<std::int64_t>(asked[2]));
+  config.dither = asked[3] != 0.0;
+  for (std::size_t i = 4; i + 1 < asked.size(); i += 2) {
+    const auto code = static_cast<std::uint32_t>(asked[i]);
+    const auto part = [code](unsigned shift) { return static_cast<std::uint8_t>(code >> shift); };
+    config.colors.push_back(
+        {{part(16), part(8), part(0)}, asked[i + 1] < 0.0 ? StockColor::kAny : static_cast<std::int64_t>(asked[i + 1])});
+  }
+  if (config.colors.empty()) {
+    for (const NamedColor& usual : usual_colors()) config.colors.push_back({usual.color});
+  }
+  return make_picture(image, config);
+}
+
+std::string describe(const Picture& picture) {
+  std::string json = "{\"rows\":" + std::to_string(picture.size.rows) + ",\"count\":" + std::to_string(picture.size.count) + ",\"used\":[";
+  for (std::size_t i = 0; i < picture.used.size(); ++i) json += (i == 0 ? "" : ",") + std::to_string(picture.used[i]);
+  json += "],\"text\":";
+  add_text(json, picture_text(picture));
+  return json + "}";
+}
+
 std::string hash_digits(std::uint64_t hash) {
   char text[20];
   std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
@@ -244,6 +271,20 @@ TOPPLE_EXPORT(topple_watch_steps) bool topple_watch_steps(int steps) {
     topple::add_contacts(all.bytes, *all.watched, *all.watched_layout);
   }
   return goes_on;
+}
+
+/// Makes a picture of an image, 4 * width * height bytes, in an order of so many numbers (picture_as_asked). True: the answer is JSON
+/// (rows, count, how many of each colour, its text for a layout file) and the bytes are its cells. False: the answer says why not.
+TOPPLE_EXPORT(topple_picture)
+bool topple_picture(const std::uint8_t* pixels, int width, int height, const double* asked, std::size_t numbers) {
+  topple::Desk& all = desk();
+  const topple::Image image{
+      width, height, {pixels, pixels + std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)}};
+  topple::Result<topple::Picture> picture = topple::picture_as_asked(image, {asked, numbers});
+  if (!picture) return topple::fail(picture.error());
+  all.answer = topple::describe(*picture);
+  all.bytes = std::move(picture->cells);
+  return true;
 }
 
 TOPPLE_EXPORT(topple_time) double topple_time() { return desk().simulation->progress().time; }

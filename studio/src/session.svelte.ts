@@ -1,6 +1,7 @@
 /** What the page is doing: drawing, watching or comparing; what is open, where it came from, and how one becomes the other. */
 
 import { hashWords, readFragment } from './draw/link.ts';
+import { isImage } from './draw/picture.ts';
 import { toldByProgram, type Studio } from './draw/studio.svelte.ts';
 import type { Finished } from './engine/client.ts';
 import type { Mode } from './page_interface.ts';
@@ -24,6 +25,8 @@ export interface Screen {
   fit: () => void;
   /** Another document or mode: what was drawn over the last one goes. */
   clear: () => void;
+  /** Asks how an image is to become a field. */
+  picture: (image: File) => void;
 }
 
 export class Session {
@@ -110,6 +113,10 @@ export class Session {
 
   async openFile(file: File): Promise<void> {
     const mine = ++this.brought;
+    if (isImage(file)) {
+      this.setMode('draw');
+      return this.screen.picture(file);
+    }
     const begins = await file.slice(0, 6).text();
     if (/\.toml$/i.test(file.name)) {
       const text = await file.text();
@@ -117,7 +124,7 @@ export class Session {
       return;
     }
     if (!/\.topple$/i.test(file.name) && begins !== 'TOPPLE') {
-      this.player.failure = `${file.name} is neither a layout (.toml) nor a recording (.topple).`;
+      this.player.failure = `${file.name} is neither a layout (.toml) nor a recording (.topple) nor an image.`;
       return;
     }
     const bytes = await file.arrayBuffer();
@@ -147,6 +154,15 @@ export class Session {
     this.setMode('draw', true);
     this.studio.tool = 'select';
     this.studio.open(text, promised);
+  }
+
+  /** A field that shows a picture, beside what is on the table. */
+  async addPicture(text: string): Promise<void> {
+    this.studio.add(text);
+    this.studio.tool = 'select';
+    this.studio.chosen = []; // what marks the chosen would lie over the picture
+    await this.studio.settle();
+    this.stage.frameAll();
   }
 
   async fetchSummary(): Promise<void> {

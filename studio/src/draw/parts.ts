@@ -128,5 +128,6 @@ export function setGap(part: Block, gap: number): void {
 const kUnknown: Record<string, readonly string[]> = { brick: ['color_to'], ball: ['color_to', 'kind'] };
 
 export function knows(part: Block, key: string): boolean {
+  if (key.startsWith('color') && part.has('picture') && part.string('starter') !== 'line') return false; // no brick would show it
   return !kUnknown[part.name]?.includes(key);
 }

@@ -9,7 +9,7 @@ import { knows, mirrorPart, movePart, nameOf, partsOf, pointsOf, turnPart, type 
 import type { Style } from './shapes.ts';
 import { Block, TomlFile } from './toml.ts';
 
-export type Tool = 'select' | 'row' | 'curve' | 'circle' | 'spiral' | 'ess' | 'split' | 'brick' | 'field' | 'wall' | 'tower' | 'pyramid' | 'ball' | 'push' | 'measure' | 'brush';
+export type Tool = 'select' | 'row' | 'curve' | 'circle' | 'spiral' | 'ess' | 'split' | 'brick' | 'field' | 'wall' | 'tower' | 'pyramid' | 'ball' | 'push' | 'measure' | 'brush' | 'picture';
 
 /** Bricks of a part: ends of what it made [first, last]. */
 export interface Span {
@@ -284,8 +284,8 @@ export class Studio {
   /** A new part at the end; the first of all brings a push along. */
   add(...texts: string[]): void {
     this.edit((file) => {
-      const rolls = texts[0].startsWith('[[ball]]');
-      if (file.list('push').length === 0 && partsOf(file).length === 0 && !rolls) this.addPush(file, 0);
+      const pushed = /^\[\[ball\]\]|^starter = "pushes"$/m.test(texts[0]); // by itself
+      if (file.list('push').length === 0 && partsOf(file).length === 0 && !pushed) this.addPush(file, 0);
       const model = file.table('model');
       if (model) file.remove(model);
       for (const text of texts) file.append(text);

@@ -2,7 +2,7 @@
 
 import type { Loaded } from '../recording/load.ts';
 import type { Recording } from '../recording/types.ts';
-import type { Draft } from './engine.ts';
+import type { Draft, Picture, PictureOrder } from './engine.ts';
 import type { EngineOrder, EngineReport, Source } from './worker.ts';
 
 export type { Source } from './worker.ts';
@@ -79,6 +79,7 @@ export class EngineClient {
     if (report.id === this.reading) this.readNext();
     if (!waiting) return;
     if (report.kind === 'draft') waiting.resolve({ ...report.draft, recording: report.recording } as never);
+    else if (report.kind === 'picture') waiting.resolve(report.picture as never);
     else if (report.kind === 'over') waiting.resolve(report as never);
     else if (report.kind === 'unbegun') waiting.reject(new Superseded());
     else if (report.kind === 'problems') waiting.reject(new Refused(report.problems));
@@ -115,6 +116,15 @@ export class EngineClient {
       this.send({ kind: 'run', id, source, ...(native ? { native: new URL(native, document.baseURI).href } : {}) });
     });
     return { finished, stop: () => this.send({ kind: 'stop', id }) };
+  }
+
+  /** An image as bricks. Rejects with Refused where they are too few or too many. */
+  picture(order: PictureOrder): Promise<Picture> {
+    const id = this.next++;
+    return new Promise<Picture>((resolve, reject) => {
+      this.waiting.set(id, { resolve: resolve as (value: never) => void, reject });
+      this.send({ kind: 'picture', id, order });
+    });
   }
 
   close(): void {

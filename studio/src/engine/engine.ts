@@ -32,6 +32,34 @@ export interface Draft {
   scene: Uint8Array<ArrayBuffer>;
 }
 
+/** What a picture is made of. */
+export interface PictureOrder {
+  /** Red, green, blue and opacity of each pixel, line by line from the upper left. */
+  pixels: Uint8ClampedArray<ArrayBuffer>;
+  width: number;
+  height: number;
+  /** Brick to brick in a row, and from row to row [m]. */
+  pitch: number;
+  rowPitch: number;
+  /** About how many in all. */
+  bricks: number;
+  dither: boolean;
+  /** "#rrggbb", and how many bricks there are of it; none at all: the usual colours. */
+  colors: { color: string; stock?: number }[];
+}
+
+/** A picture in bricks. */
+export interface Picture {
+  rows: number;
+  count: number;
+  /** Bricks by colour. */
+  used: number[];
+  /** `palette` and `picture` of a field in a layout file. */
+  text: string;
+  /** Which colour, line by line as it is seen from above. */
+  cells: Uint8Array<ArrayBuffer>;
+}
+
 /** Why a layout cannot be read or run: every problem, "name:line:column: key: what is wrong". */
 export class LayoutError extends Error {
   override name = 'LayoutError';
@@ -57,6 +85,7 @@ interface Exports {
   topple_collect(over: number): void;
   topple_watch(...texts: number[]): number;
   topple_watch_steps(steps: number): number;
+  topple_picture(pixels: number, width: number, height: number, asked: number, numbers: number): number;
   topple_time(): number;
   topple_arrived(): number;
   topple_steps(): number;
@@ -145,6 +174,18 @@ export class Engine {
   watchSteps(steps: number): { bytes: Uint8Array<ArrayBuffer>; more: boolean } {
     const more = this.c.topple_watch_steps(steps) !== 0;
     return { bytes: this.bytes(), more };
+  }
+
+  /** An image as bricks. @throws LayoutError where there are too few bricks, or too many. */
+  picture({ pixels, width, height, pitch, rowPitch, bricks, dither, colors }: PictureOrder): Picture {
+    const asked = [pitch, rowPitch, bricks, dither ? 1 : 0, ...colors.flatMap(({ color, stock }) => [parseInt(color.slice(1), 16), stock ?? -1])];
+    const room = this.c.topple_reserve(pixels.length + 8 * asked.length);
+    new Float64Array(this.c.memory.buffer, room, asked.length).set(asked);
+    new Uint8Array(this.c.memory.buffer, room + 8 * asked.length, pixels.length).set(pixels);
+    const good = this.c.topple_picture(room + 8 * asked.length, width, height, room, asked.length) !== 0;
+    this.c.topple_release(room);
+    if (!good) throw new LayoutError(this.answer());
+    return { ...(JSON.parse(this.answer()) as Omit<Picture, 'cells'>), cells: this.bytes() };
   }
 
   /** Simulated so far [s]. */

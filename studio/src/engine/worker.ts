@@ -6,7 +6,7 @@ import { GrowingRecording } from '../recording/growing.ts';
 import type { Loaded } from '../recording/load.ts';
 import type { Recording } from '../recording/types.ts';
 import { findFalls, findFront } from '../recording/wave.ts';
-import { Engine, LayoutError, type Draft } from './engine.ts';
+import { Engine, LayoutError, type Draft, type Picture, type PictureOrder } from './engine.ts';
 
 /** A layout as text, and what the command line's `--set` would say. */
 export interface Source {
@@ -20,12 +20,14 @@ export type EngineOrder =
   | { kind: 'read'; id: number; source: Source }
   /** `native`: an address of the program that serves the page; it runs the layout in this engine's place. */
   | { kind: 'run'; id: number; source: Source; native?: string }
+  | { kind: 'picture'; id: number; order: PictureOrder }
   | { kind: 'stop'; id: number };
 
 export type EngineReport =
   | { kind: 'ready' }
   | { kind: 'absent'; message: string }
   | { kind: 'draft'; id: number; draft: Omit<Draft, 'scene'>; recording: Recording }
+  | { kind: 'picture'; id: number; picture: Picture }
   | { kind: 'problems'; id: number; problems: string[] }
   | { kind: 'broken'; id: number; message: string }
   /** A run was stopped before it began. */
@@ -54,6 +56,7 @@ self.onmessage = (message: MessageEvent<EngineOrder>) => {
   if (order.kind === 'load') loading = load(order.url);
   else if (order.kind === 'stop') going.get(order.id)?.abort();
   else if (order.kind === 'read') void attempt(order.id, () => read(order.id, order.source));
+  else if (order.kind === 'picture') void attempt(order.id, () => tell({ kind: 'picture', id: order.id, picture: (engine as Engine).picture(order.order) }));
   else {
     for (const before of going.values()) before.abort();
     const { id, source, native } = order;

@@ -4,6 +4,7 @@ import { existsSync, readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { brotliCompressSync } from 'node:zlib';
 import { beforeAll, describe, expect, test } from 'vitest';
+import { kNamed } from '../../src/draw/colors.ts';
 import { kGallery } from '../../src/draw/gallery.ts';
 import { Engine, LayoutError } from '../../src/engine/engine.ts';
 import { ContactSteps, kFloor } from '../../src/forces/contact_steps.ts';
@@ -42,6 +43,19 @@ describe('the engine', () => {
     const attempt = (): unknown => engine.read('[[row]]\ncount = 0\ngap_mm = 1\ncolour = 3\n', 'mine.toml');
     expect(attempt).toThrow(LayoutError);
     expect(attempt).toThrow(/mine\.toml:2:9: row\.0\.count: must be[\s\S]*mine\.toml:4:10: row\.0\.colour:.*did you mean|nearest|color/);
+  });
+
+  test('an image becomes a picture of the same colours as the page offers', () => {
+    const pixels = new Uint8ClampedArray(kNamed.flatMap(([color]) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16)).concat(255)));
+    const order = { pixels, width: 12, height: 1, pitch: 0.016, rowPitch: 0.016, bricks: 12, dither: false };
+    const usual = engine.picture({ ...order, colors: [] });
+    expect(usual).toMatchObject({ rows: 1, count: 12, used: kNamed.map(() => 1), cells: Uint8Array.from(kNamed.keys()) });
+    expect(usual.text).toMatch(/picture = \[\n {2}"roygtbBvc\.s#",\n\]\n$/);
+    const named = engine.picture({ ...order, colors: kNamed.map(([color]) => ({ color })) });
+    expect(named).toEqual(usual);
+    const short = engine.picture({ ...order, colors: [{ color: '#000000', stock: 2 }, { color: '#ffffff' }] });
+    expect(short.used).toEqual([2, 10]);
+    expect(() => engine.picture({ ...order, colors: [{ color: '#000000', stock: 2 }] })).toThrow(/10 are missing/);
   });
 
   test('overlapping bricks can be drawn, are told, and cannot be run', () => {

@@ -34,6 +34,15 @@ x = [[1], [2]]
 [[row]]
 count=5`;
 
+  test('a picture stays as it is while keys around it change, whatever signs it is drawn with', () => {
+    const picture = 'palette = { "#" = "#000000", "[" = "#ffffff" }\npicture = [\n  "#[#",\n  "[[#",\n]\n';
+    const file = new TomlFile(`[[field]]\ngap_mm = 8\n${picture}rows = 2\n\n[model]\nname = "rigid"\n`);
+    expect(file.blocks.map((block) => block.name)).toEqual(['field', 'model']);
+    file.list('field')[0].set('gap_mm', 9);
+    file.list('field')[0].set('heading_deg', 90);
+    expect(file.text).toBe(`[[field]]\ngap_mm = 9\n${picture}rows = 2\nheading_deg = 90\n\n[model]\nname = "rigid"\n`);
+  });
+
   test('values are found and changed in place', () => {
     const file = new TomlFile(text);
     expect(file.blocks.map((block) => block.name)).toEqual(['', 'row', 'later', 'row']);
