@@ -4,6 +4,7 @@
  */
 
 import { EngineClient, Refused, Superseded, type Finished, type ReadLayout, type RunWatch } from '../engine/client.ts';
+import type { Part } from '../recording/types.ts';
 import { lastArrival } from '../recording/wave.ts';
 import { knows, mirrorPart, movePart, nameOf, partsOf, pointsOf, turnPart, type Point } from './parts.ts';
 import type { Style } from './shapes.ts';
@@ -305,13 +306,18 @@ export class Studio {
 
   /** Bricks of the i-th part, null while the engine has not answered. */
   spanOf(index: number): Span | null {
-    const file = this.file;
-    const part = partsOf(file)[index];
-    if (!part || !this.layout) return null;
-    const name = nameOf(file, part);
-    const made = this.layout.recording.parts.filter((one) => one.name === name || one.name.startsWith(`${name} `));
+    const made = this.madeBy(index);
     if (made.length === 0) return null;
     return { first: Math.min(...made.map((one) => one.first)), last: Math.max(...made.map((one) => one.first + one.count - 1)) };
+  }
+
+  /** What a part of the file became: one line of bricks, or those of a field, row by row. */
+  madeBy(index: number): Part[] {
+    const file = this.file;
+    const part = partsOf(file)[index];
+    if (!part || !this.layout) return [];
+    const name = nameOf(file, part);
+    return this.layout.recording.parts.filter((one) => one.name === name || one.name.startsWith(`${name} `));
   }
 
   /** Which part made a brick, -1 if none did. */
