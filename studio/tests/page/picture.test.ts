@@ -64,10 +64,14 @@ test('an image becomes a field in one step of undo, and all of it falls', async 
   await expect.poll(text).not.toMatch(/picture/);
   await page.keyboard.press('Control+Shift+z');
   await expect.poll(drawn).toBe(300);
+  // Chosen, it is marked row by row and as long as its rows together: ten times 29 pitches of 16 mm.
+  await page.keyboard.press('Control+a');
+  await expect.poll(() => page.locator('polyline.spine').count()).toBe(10);
+  await expect.poll(() => page.getByText('300 bricks, 4.64 m').count()).toBeGreaterThan(0);
   await page.getByRole('button', { name: 'Topple' }).click();
-  await expect.poll(() => page.evaluate(() => window.topple.hash), { timeout: 60000 }).toMatch(/^[0-9a-f]{16}$/);
+  await expect.poll(() => page.evaluate(() => window.topple.hash)).toMatch(/^[0-9a-f]{16}$/);
   await page.evaluate(() => window.topple.seek(window.topple.duration));
-  expect(await page.evaluate(() => window.topple.fallen)).toBe(300);
+  await expect.poll(() => page.evaluate(() => window.topple.fallen)).toBe(300);
 });
 
 test('of a colour never more bricks are taken than there are, and what is missing is said', async () => {
@@ -113,7 +117,7 @@ test('what is no image changes nothing, and the dialog is fit for all', async ()
   const found = await page.evaluate(async () => (await (window as unknown as { axe: { run(of: string): Promise<{ violations: { id: string }[] }> } }).axe.run('dialog')).violations.map((one) => one.id));
   expect(found).toEqual([]);
   await page.keyboard.press('Escape');
-  expect(await dialog().count()).toBe(0);
+  await expect.poll(() => dialog().count()).toBe(0);
   expect(await drawn()).toBe(0);
 });
 
