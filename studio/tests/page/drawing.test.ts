@@ -304,8 +304,8 @@ describe('a new user', () => {
     expect(await text()).toBe(mine);
     await give('worse.toml', '[[row]]\ncount = -3\ngap_mm = 10\ncolour = "red"\n');
     await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/worse\.toml:2:9: row\.0\.count: [\s\S]*worse\.toml:4:1: row\.0\.colour: /);
-    await give('photo.jpg', 'not for us');
-    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/photo\.jpg is neither a layout \(\.toml\) nor a recording \(\.topple\)/);
+    await give('notes.pdf', 'not for us');
+    await expect.poll(() => page.getByRole('alert').innerText()).toMatch(/notes\.pdf is neither a layout \(\.toml\) nor a recording \(\.topple\)/);
     expect(await text()).toBe(mine);
     await page.getByRole('button', { name: 'Close' }).click();
     await settled();
