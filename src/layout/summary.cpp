@@ -3,23 +3,10 @@
 #include <limits>
 
 #include "base/trigonometry.h"
+#include "layout/text.h"
 #include "topple/layout.h"
 
 namespace topple {
-namespace {
-
-std::string hexadecimal(const Color& color) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "#";
-  for (const unsigned byte : {color.red, color.green, color.blue}) {
-    text += kDigits[byte >> 4U];
-    text += kDigits[byte & 15U];
-  }
-  return text;
-}
-
-}  // namespace
-
 LayoutSummary summarize(const Layout& layout) {
   LayoutSummary summary;
   summary.bricks = layout.brick_count();
@@ -51,7 +38,7 @@ LayoutSummary summarize(const Layout& layout) {
     if (kinds[i] > 0) summary.kinds.push_back({layout.kinds[i].name, kinds[i]});
   }
   for (std::size_t i = 0; i < colors.size(); ++i) {
-    if (colors[i] > 0) summary.colors.push_back({hexadecimal(layout.colors[i]), colors[i]});
+    if (colors[i] > 0) summary.colors.push_back({color_text(layout.colors[i]), colors[i]});
   }
   return summary;
 }

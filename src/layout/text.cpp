@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "topple/layout.h"
+
 namespace topple {
 namespace {
 
@@ -155,6 +157,16 @@ std::string count_text(long long count) {
   const std::size_t first = count < 0 ? 1 : 0;
   for (std::size_t i = digits.size(); i > first + 3;) digits.insert(i -= 3, ",");
   return digits;
+}
+
+std::string color_text(const Color& color) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "#";
+  for (const unsigned byte : {color.red, color.green, color.blue}) {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
 }
 
 std::optional<Unreadable> unreadable(std::string_view text) { return Scanner(text).scan(); }

@@ -9,6 +9,8 @@
 
 namespace topple {
 
+struct Color;
+
 /// Text for a message: control characters escaped, cut after `limit` characters.
 std::string printable(std::string_view text, std::size_t limit = 60);
 
@@ -17,6 +19,9 @@ std::string number_text(double number);
 
 /// 10000000 as "10,000,000".
 std::string count_text(long long count);
+
+/// "#rrggbb".
+std::string color_text(const Color& color);
 
 /// What stops text from being handed to the TOML reader, with its place.
 struct Unreadable {

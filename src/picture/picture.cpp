@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "layout/text.h"
 #include "picture/choice.h"
 #include "picture/mean.h"
 
@@ -13,11 +14,7 @@ namespace {
 constexpr std::int64_t kMostBricks = 10'000'000;  // as many as a layout may have
 constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-std::string words_for(std::int64_t bricks) {
-  std::string digits = std::to_string(bricks);
-  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
-  return digits + (bricks == 1 ? " brick" : " bricks");
-}
+std::string words_for(std::int64_t bricks) { return count_text(bricks) + (bricks == 1 ? " brick" : " bricks"); }
 
 /// The stock of all colours; as much as is ever needed where one of them is without limit.
 std::int64_t whole_stock(std::span<const StockColor> colors) {
@@ -51,16 +48,6 @@ std::string letters_for(std::span<const StockColor> colors) {
 std::string key_of(char letter) {
   const std::string key(1, letter);
   return kLetters.find(letter) == std::string_view::npos ? '"' + key + '"' : key;
-}
-
-std::string hexadecimal(const Color& color) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string text = "#";
-  for (const unsigned byte : {color.red, color.green, color.blue}) {
-    text += kDigits[byte >> 4U];
-    text += kDigits[byte & 15U];
-  }
-  return text;
 }
 
 }  // namespace
@@ -119,7 +106,7 @@ std::string picture_text(const Picture& picture) {
   for (std::size_t i = 0; i < picture.colors.size(); ++i) {
     if (picture.used[i] == 0) continue;
     text += text.back() == '{' ? " " : ", ";
-    text += key_of(letters[i]) + " = \"" + hexadecimal(picture.colors[i].color) + '"';
+    text += key_of(letters[i]) + " = \"" + color_text(picture.colors[i].color) + '"';
   }
   text += " }\npicture = [\n";
   const auto count = static_cast<std::size_t>(picture.size.count);
