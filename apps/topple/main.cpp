@@ -19,6 +19,7 @@ std::vector<std::unique_ptr<Verb>> all_verbs() {
   verbs.push_back(layout_verb());
   verbs.push_back(picture_verb());
   verbs.push_back(run_verb());
+  verbs.push_back(times_verb());
   verbs.push_back(risk_verb());
   verbs.push_back(show_verb());
   verbs.push_back(studio_verb());

@@ -27,6 +27,7 @@ class Verb {
 std::unique_ptr<Verb> layout_verb();
 std::unique_ptr<Verb> picture_verb();
 std::unique_ptr<Verb> run_verb();
+std::unique_ptr<Verb> times_verb();
 std::unique_ptr<Verb> risk_verb();
 std::unique_ptr<Verb> replay_verb();
 std::unique_ptr<Verb> plot_verb();

@@ -49,6 +49,8 @@ Result<void> save_bytes(std::string_view bytes, const std::filesystem::path& pat
 Result<void> save_recording(const Recording& recording, const std::filesystem::path& path);
 Result<void> export_knots_csv(const Recording& recording, const std::filesystem::path& path);
 Result<void> export_events_csv(const Recording& recording, const std::filesystem::path& path);
+/// The time sheet (measure_parts), a line a part.
+Result<void> export_times_csv(const Recording& recording, const std::filesystem::path& path);
 Result<void> export_hdf5(const Recording& recording, const std::filesystem::path& path);
 
 enum class Figure : std::uint8_t { motion, arrival, speed, energy };

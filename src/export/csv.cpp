@@ -78,6 +78,14 @@ Result<Table> create(const std::filesystem::path& path, std::string_view columns
 // What a place that was kept as a float against the brick's foot is worth in the world: 10 nm.
 double in_steps(double metres) { return std::isnan(metres) ? metres : std::round(metres * 1e8) / 1e8; }
 
+void add_brick(Table& table, BrickId brick) {
+  if (brick == kNoBrick) {
+    table.skip();
+  } else {
+    table.cell(brick);
+  }
+}
+
 void add_pose(Table& table, const Pose& pose) {
   table.cell(pose.position.x).cell(pose.position.y).cell(pose.position.z);
   table.cell(pose.orientation.w).cell(pose.orientation.x).cell(pose.orientation.y).cell(pose.orientation.z);
@@ -119,14 +127,36 @@ Result<void> export_events_csv(const Recording& recording, const std::filesystem
   for (std::int64_t i = 0; i < recording.event_count(); ++i) {
     const Event event = recording.event(i);
     table->cell(event.time).word(kWords[static_cast<std::size_t>(event.kind)]).cell(event.brick);
-    if (event.by == kNoBrick) {
-      table->skip();
-    } else {
-      table->cell(event.by);
-    }
+    add_brick(*table, event.by);
     // Both were kept as floats.
     table->cell(static_cast<float>(event.force)).cell(static_cast<float>(event.impulse));
     table->cell(in_steps(event.point.x)).cell(in_steps(event.point.y)).cell(in_steps(event.point.z));
+    if (auto done = table->end_line(); !done) return done;
+  }
+  return table->finish();
+}
+
+Result<void> export_times_csv(const Recording& recording, const std::filesystem::path& path) {
+  auto table = create(path,
+                      "part,bricks,fallen,reached,first_brick,last_brick,first_arrival_s,last_arrival_s,bricks_per_s,speed_m_s,"
+                      "from_part,from_brick,pushed_at_s,start");
+  if (!table) return std::unexpected(table.error());
+  const Layout& layout = recording.layout();
+  for (const PartTimes& times : measure_parts(recording)) {
+    const Part& part = layout.parts[times.part];
+    table->word(part.name).cell(part.count).cell(times.fallen).cell(times.reached);
+    add_brick(*table, times.first);
+    add_brick(*table, times.last);
+    table->cell(times.first_arrival).cell(times.last_arrival).cell(times.brick_rate).cell(times.speed);
+    const Part* const from = times.from == kNoBrick ? nullptr : layout.part_of(times.from);
+    table->word(from == nullptr ? std::string_view() : std::string_view(from->name));
+    add_brick(*table, times.from);
+    table->cell(times.pushed_at);
+    if (times.start < 0) {
+      table->skip();
+    } else {
+      table->cell(times.start);
+    }
     if (auto done = table->end_line(); !done) return done;
   }
   return table->finish();

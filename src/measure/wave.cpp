@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "measure/strikes.h"
 #include "topple/measure.h"
 
 namespace topple {
@@ -10,31 +11,6 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kFewest = 5;  // Fewer bricks have no 20 % and 80 % to speak of.
-
-// Who struck each brick first; a pushed brick is a beginning, whoever strikes it later.
-struct Strikes {
-  std::vector<BrickId> by;
-  std::vector<double> arrival;  // When the wave reached each brick last; not a number where it did not [s].
-  BrickId last = kNoBrick;      // The last brick that the wave reached.
-};
-
-Strikes strikes_of(const Recording& recording) {
-  constexpr BrickId kUnknown = -2;
-  const auto bricks = static_cast<std::size_t>(recording.layout().brick_count());
-  Strikes strikes{std::vector<BrickId>(bricks, kUnknown), std::vector<double>(bricks, kNever), kNoBrick};
-  for (std::int64_t i = 0; i < recording.event_count(); ++i) {
-    const Event event = recording.event(i);
-    BrickId& by = strikes.by[static_cast<std::size_t>(event.brick)];
-    if (event.kind == EventKind::pushed && by == kUnknown) by = kNoBrick;
-    if (event.kind == EventKind::struck && by == kUnknown) by = event.by;
-    if (event.kind == EventKind::arrived) {
-      if (by == kUnknown) by = kNoBrick;
-      strikes.last = event.brick;
-      strikes.arrival[static_cast<std::size_t>(event.brick)] = event.time;
-    }
-  }
-  return strikes;
-}
 
 // From the first to the last: followed backwards, so turned round at the end.
 std::vector<BrickId> trunk_of(const Strikes& strikes) {

@@ -4,44 +4,12 @@
 
 #include <cmath>
 
-#include "recording/scripted_model.h"
+#include "measure/teller.h"
 
 using namespace topple;
 using namespace topple::scripted;
 
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-Event event(double time, EventKind kind, BrickId brick, BrickId by = kNoBrick) {
-  return {time, kind, brick, by, kNone, kNone, {kNone, kNone, kNone}};
-}
-
-/// Nothing moves; it only says what happened.
-class Teller : public Model {
- public:
-  explicit Teller(std::vector<Event> events) : events_(std::move(events)) {}
-  Status step() override { return {++steps_ < 2 ? Progress::running : Progress::at_rest, kNoBrick}; }
-  std::int64_t step_count() const override { return steps_; }
-  double time_step() const override { return 100.0; }
-  void read(Frame& out) const override {
-    out = {};
-    out.time = time();
-  }
-  std::span<const Event> events() const override { return steps_ == 1 ? std::span<const Event>(events_) : std::span<const Event>(); }
-  std::span<const Contact> contacts() const override { return {}; }
-  std::uint64_t hash() const override { return 0; }
-  double time() const { return 100.0 * static_cast<double>(steps_); }
-
- private:
-  std::vector<Event> events_;
-  std::int64_t steps_ = 0;
-};
-
-Recording told(Layout layout, std::vector<Event> events) {
-  Teller teller(std::move(events));
-  return record(std::move(layout), teller);
-}
 
 // Brick i of a row is struck by the one before and passes 10 degrees at 0.5 + i * period.
 std::vector<Event> wave_events(BrickId count, double period) {
