@@ -82,6 +82,9 @@ class RiskStudy {
   /// thread, `go_on` is asked by any thread some twenty times a second; when it says no, runs under way are given up. Fails where the
   /// model refuses bricks that are not exactly in their places.
   Result<void> run(std::int64_t runs, const std::function<void(const PlacedRun&)>& finished, const std::function<bool()>& go_on);
+  /// One seed's run, for those who share out the runs themselves; it is not added. Nothing where `go_on` said no; without one it
+  /// runs to its end. Any number of threads at once may ask.
+  Result<std::optional<PlacedRun>> run_seed(std::uint64_t seed, const std::function<bool()>& go_on) const;
   void add(PlacedRun run);  ///< One of an earlier study with the same key; a seed that is there already is left as it is.
   std::span<const PlacedRun> done() const { return runs_; }  ///< In the order of their seeds.
 
@@ -93,7 +96,6 @@ class RiskStudy {
 
  private:
   RiskStudy(Recording exact, const PlacementError& error, const RunConfig& config);
-  Result<std::optional<PlacedRun>> run_seed(std::uint64_t seed, const std::function<bool()>& go_on) const;
   void count_links(Risk& risk) const;
   bool waits_for(std::size_t brick, std::span<const std::uint8_t> fell) const;
   void list_links(Risk& risk, std::span<const Share> stops) const;

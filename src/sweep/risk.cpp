@@ -135,7 +135,6 @@ Result<void> RiskStudy::run(std::int64_t runs, const std::function<void(const Pl
   return {};
 }
 
-// Nothing where it was given up.
 Result<std::optional<PlacedRun>> RiskStudy::run_seed(std::uint64_t seed, const std::function<bool()>& go_on) const {
   PlacedRun run{.seed = seed};
   Result<Layout> placed = read_layout(layout().text, layout().name, overrides_with(layout(), error_, seed));
@@ -146,7 +145,7 @@ Result<std::optional<PlacedRun>> RiskStudy::run_seed(std::uint64_t seed, const s
   }
   RunConfig config = config_;
   config.threads = 1;
-  config.watch = [&go_on](const RunProgress&, const Recording&) { return go_on(); };
+  if (go_on) config.watch = [&go_on](const RunProgress&, const Recording&) { return go_on(); };
   const Result<Recording> recording = simulate(std::move(*placed), *model_config(layout()), config);
   if (!recording) {
     return failure("The model refuses the layout where bricks are off their places (seed " + std::to_string(seed) + "):\n" +

@@ -1,62 +1,15 @@
 /// The engine as the page sees it: a few functions over one layout and one run, text and bytes through memory. The worker that calls it
 /// is studio/src/engine/worker.ts, its typed side studio/src/engine/engine.ts.
-#include <array>
-#include <bit>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "topple/measure.h"
-#include "topple/picture.h"
-#include "topple/run.h"
-
-#define TOPPLE_EXPORT(name) __attribute__((export_name(#name)))
+#include "desk.h"
 
 namespace topple {
 namespace {
-
-/// All the engine holds: the layout that was read last, and the run under way.
-struct Desk {
-  std::optional<Layout> layout;
-  std::optional<Simulation> simulation;
-  std::optional<RecordingWriter> writer;
-  // A run of which only the forces at contacts are wanted: nothing is recorded.
-  std::optional<Layout> watched_layout;
-  std::unique_ptr<Model> watched;
-  std::vector<std::uint8_t> bytes;  ///< What the last call gives back.
-  std::string answer;               ///< The same of those that give text: JSON, or an error's words.
-};
-
-Desk& desk() {
-  static Desk only;
-  return only;
-}
-
-void add_text(std::string& json, std::string_view text) {
-  json += '"';
-  for (const char c : text) {
-    char escape[8];
-    if (c == '"' || c == '\\') {
-      json += '\\';
-      json += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      std::snprintf(escape, sizeof(escape), "\\u%04x", static_cast<unsigned>(c));
-      json += escape;
-    } else {
-      json += c;
-    }
-  }
-  json += '"';
-}
-
-void add_number(std::string& json, double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  json += std::string_view(text).find('n') == std::string_view::npos ? text : "null";  // nan and inf are no JSON
-}
 
 void add_counts(std::string& json, const char* name, const std::vector<LayoutSummary::Count>& counts) {
   json += std::string(",\"") + name + "\":[";
@@ -98,21 +51,6 @@ std::string describe(const Layout& layout) {
   return json + "}";
 }
 
-std::vector<std::string> lines_of(std::string_view text) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    if (end > 0) lines.emplace_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return lines;
-}
-
-bool fail(const Error& error) {
-  desk().answer = error.message;
-  return false;
-}
-
 /// Everything written since the last call: whole pieces of docs/format.md.
 void collect(bool over) {
   Desk& all = desk();
@@ -124,12 +62,6 @@ void collect(bool over) {
   for (std::vector<std::uint8_t> more = all.writer->more(); !more.empty(); more = all.writer->more()) {
     all.bytes.insert(all.bytes.end(), more.begin(), more.end());
   }
-}
-
-template <typename Number>
-void add_bytes(std::vector<std::uint8_t>& bytes, Number number) {
-  const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(Number)>>(number);
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
 }
 
 /// A step's contacts: time [s], as f64, how many, as u32, four bytes of nothing; then of each a, b as u32, the point from a's foot [m] and

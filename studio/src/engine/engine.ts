@@ -60,6 +60,36 @@ export interface Picture {
   cells: Uint8Array<ArrayBuffer>;
 }
 
+/** Some of all, and the ends of the 95 % interval of the share behind it. */
+export interface Share {
+  count: number;
+  of: number;
+  low: number;
+  high: number;
+}
+
+/** What many runs came to whose bricks were put down by hand (docs/risk.md). */
+export interface Risk {
+  runs: number;
+  /** Runs that do not count, since two bricks would have been in one place. */
+  notBuilt: number;
+  /** In which all fell that fall when every brick is exactly in its place. */
+  whole: Share;
+  /** When the wave reached its last brick, mean and standard deviation of the whole runs [s]; null without any. */
+  arrival: number | null;
+  spread: number | null;
+  /** Bricks that are struck by another one, or pushed. */
+  links: number;
+  /** Of those that never stopped, the one that the fewest runs came to. */
+  held: Share;
+  /** Bricks that stand even when all are exactly in their places. */
+  exactlyStanding: number;
+  /** Links that stopped, the weakest first. */
+  weak: { brick: number; stops: Share }[];
+  /** Parts with links, the weakest first. */
+  parts: { name: string; stops: Share }[];
+}
+
 /** Why a layout cannot be read or run: every problem, "name:line:column: key: what is wrong". */
 export class LayoutError extends Error {
   override name = 'LayoutError';
@@ -86,6 +116,10 @@ interface Exports {
   topple_watch(...texts: number[]): number;
   topple_watch_steps(steps: number): number;
   topple_picture(pixels: number, width: number, height: number, asked: number, numbers: number): number;
+  topple_risk_begin(...textsAndErrors: number[]): number;
+  topple_risk_run(seed: number): number;
+  topple_risk_add(numbers: number, count: number): void;
+  topple_risk_answer(): void;
   topple_time(): number;
   topple_arrived(): number;
   topple_steps(): number;
@@ -186,6 +220,35 @@ export class Engine {
     this.c.topple_release(room);
     if (!good) throw new LayoutError(this.answer());
     return { ...(JSON.parse(this.answer()) as Omit<Picture, 'cells'>), cells: this.bytes() };
+  }
+
+  /**
+   * Begins to ask how likely a run stops whose bricks are put down by hand: runs it with every brick exactly in its place.
+   * @param position Standard deviation along x, and along y [m]. @param heading The same of the heading [rad]. @throws LayoutError
+   */
+  riskBegin(text: string, name: string, overrides: readonly string[], position: number, heading: number): void {
+    const begin = (...texts: number[]): number => this.c.topple_risk_begin(...texts, position, heading);
+    if (!this.withTexts(begin, [text, name, overrides.join('\n')])) throw new LayoutError(this.answer());
+  }
+
+  /** The run of one seed, which is not added. @returns It, in numbers. @throws LayoutError */
+  riskRun(seed: number): Float64Array<ArrayBuffer> {
+    if (!this.c.topple_risk_run(seed)) throw new LayoutError(this.answer());
+    return new Float64Array(this.bytes().buffer);
+  }
+
+  /** Adds a run, of this engine or another one of the same study. */
+  riskAdd(run: Float64Array): void {
+    const room = this.c.topple_reserve(run.byteLength);
+    new Float64Array(this.c.memory.buffer, room, run.length).set(run);
+    this.c.topple_risk_add(room, run.length);
+    this.c.topple_release(room);
+  }
+
+  /** What all runs that were added came to. */
+  risk(): Risk {
+    this.c.topple_risk_answer();
+    return JSON.parse(this.answer()) as Risk;
   }
 
   /** Simulated so far [s]. */

@@ -1,10 +1,14 @@
-/** Heat: bricks coloured by when the wave reached them, how fast it was there, or how hard they were hit; those without a value are grey. */
+/**
+ * Heat: bricks coloured by when the wave reached them, how fast it was there, how hard they were hit, or how often it stops at them where
+ * they are put down by hand; those without a value are grey.
+ */
 
+import type { Risk } from '../engine/engine.ts';
 import type { Loaded } from '../recording/load.ts';
 import { EventKind, type Recording } from '../recording/types.ts';
 import { runDistances } from '../recording/wave.ts';
 
-export type HeatSort = 'arrival' | 'speed' | 'impulse';
+export type HeatSort = 'arrival' | 'speed' | 'impulse' | 'risk';
 
 /** Stops of a map that is even to the eye and safe for the colour-blind (after cividis). */
 const kHeat = [[0, 34, 78], [66, 78, 108], [124, 123, 120], [187, 173, 108], [254, 232, 56]];
@@ -31,9 +35,19 @@ function speedsOf(recording: Recording): Float64Array {
   });
 }
 
-function valuesOf({ recording }: Loaded, sort: HeatSort): Float64Array {
+/** Share of the runs that come to a brick in which it stops them; 0 for those that never did. */
+function stopsOf(recording: Recording, risk: Risk | null): Float64Array {
+  const { events, bricks } = recording;
+  const values = new Float64Array(bricks.count).fill(NaN);
+  for (let i = 0; i < events.count; i++) if (events.kind[i] === EventKind.arrived) values[events.brick[i]] = 0;
+  for (const { brick, stops } of risk?.weak ?? []) values[brick] = stops.count / stops.of;
+  return values;
+}
+
+function valuesOf({ recording }: Loaded, sort: HeatSort, risk: Risk | null): Float64Array {
   const { events, bricks } = recording;
   if (sort === 'speed') return speedsOf(recording);
+  if (sort === 'risk') return stopsOf(recording, risk);
   const values = new Float64Array(bricks.count).fill(NaN);
   for (let i = 0; i < events.count; i++) {
     const brick = events.brick[i];
@@ -43,12 +57,13 @@ function valuesOf({ recording }: Loaded, sort: HeatSort): Float64Array {
   return values;
 }
 
-export function heatOf(loaded: Loaded, sort: HeatSort = 'arrival'): (brick: number) => [number, number, number] {
-  const values = valuesOf(loaded, sort);
+/** @param risk Of the sort `risk`: what many runs came to. */
+export function heatOf(loaded: Loaded, sort: HeatSort = 'arrival', risk: Risk | null = null): (brick: number) => [number, number, number] {
+  const values = valuesOf(loaded, sort, risk);
   const known = Float64Array.from(values.filter((value) => Number.isFinite(value))).sort();
   // Speeds have outliers at the push and in bends: the middle 96 % take the whole range.
   const at = (part: number): number => known[Math.floor(part * (known.length - 1))] ?? 0;
-  const [low, high] = sort === 'arrival' ? [at(0), at(1)] : [at(0.02), at(0.98)];
+  const [low, high] = sort === 'arrival' || sort === 'risk' ? [at(0), at(1)] : [at(0.02), at(0.98)];
   return (brick) => {
     if (!Number.isFinite(values[brick])) return [150, 150, 150];
     const place = Math.min(1, Math.max(0, (values[brick] - low) / Math.max(1e-9, high - low))) * (kHeat.length - 1);

@@ -17,6 +17,8 @@ const kSpeck = 0.008;
 /** How fast the camera closes in on the front [1/s]. */
 const kFollow = 5;
 
+const kNoInsets: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
+
 /** Over the table as one draws: x to the right. */
 const kTableForward = new Vector3(0, 0.7, -0.72);
 
@@ -218,18 +220,18 @@ export class Rig {
     return forward.z < kFlattest && forward.z > kSteepest ? forward : null;
   }
 
-  /** Whether all bricks are in sight. */
-  private whole(): boolean {
+  /** Whether all bricks are in sight, and keep clear of what covers such parts of the view. */
+  private whole({ left, right, top, bottom }: Insets = kNoInsets): boolean {
     this.camera.updateMatrixWorld();
     return this.points.every((point) => {
       const at = point.clone().project(this.camera);
-      return Math.abs(at.x) < 1 && Math.abs(at.y) < 1 && at.z < 1;
+      return at.x > 2 * left - 1 && at.x < 1 - 2 * right && at.y > 2 * bottom - 1 && at.y < 1 - 2 * top && at.z < 1;
     });
   }
 
   /**
    * Nearer from the same side, if all bricks were in sight and would be much larger: what is drawn needs room, what falls is looked at.
-   * Back, if the page's other shape has cut some of them off.
+   * Back, if the page's other shape has cut some of them off or covers them.
    * @returns Whether bricks in sight can be seen from there: a run of many metres is a line.
    */
   closeIn(): boolean {
@@ -238,7 +240,8 @@ export class Rig {
     if (!whole && !this.table?.whole) return true;
     const aim = frame(this.points, this.controls.target.clone().sub(this.camera.position), this.camera, this.insets);
     if (this.sizeAt(aim.position.distanceTo(aim.target)) < kSpeck) return false;
-    if (!whole || aim.position.distanceTo(aim.target) < kMuchNearer * this.distance) this.goTo(aim);
+    const covered = !this.whole(this.insets);
+    if (!whole || covered || aim.position.distanceTo(aim.target) < kMuchNearer * this.distance) this.goTo(aim);
     return true;
   }
 

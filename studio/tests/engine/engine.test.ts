@@ -58,6 +58,24 @@ describe('the engine', () => {
     expect(() => engine.picture({ ...order, colors: [{ color: '#000000', stock: 2 }] })).toThrow(/10 are missing/);
   });
 
+  test('bricks put down by hand: engines that share the runs come to what the program says', async () => {
+    const text = readFileSync(`${kRoot}scenes/by_hand.toml`, 'utf8');
+    const engines = [engine, await Engine.load(readFileSync(kModule))];
+    for (const one of engines) one.riskBegin(text, 'by_hand.toml', ['model.name=rigid'], 0.0005, (1.7 / 180) * Math.PI);
+    // `topple risk scenes/by_hand.toml --runs 20`
+    for (let seed = 20; seed >= 1; seed--) engine.riskAdd(engines[seed % 2].riskRun(seed));
+    engine.riskAdd(engines[1].riskRun(3)); // again: it counts once
+    const found = engine.risk();
+    expect(found).toMatchObject({ runs: 20, notBuilt: 0, links: 73, exactlyStanding: 0, whole: { count: 12, of: 20 } });
+    expect(found.weak).toMatchObject([{ brick: 39, stops: { count: 8, of: 20 } }]);
+    expect(found.weak[0].stops.low).toBeCloseTo(0.2188, 4);
+    expect(found.weak[0].stops.high).toBeCloseTo(0.6134, 4);
+    expect(found.parts[0]).toMatchObject({ name: 'row 3', stops: { count: 8, of: 20 } });
+    expect(found.arrival).toBeCloseTo(2.18187, 5);
+    expect(found.spread).toBeCloseTo(0.0602, 4);
+    expect(() => engine.riskBegin('[[row]]\ncount = 3\ngap_mm = 10\n', 'mine.toml', [], 0.0005, 0)).toThrow(/mine\.toml: no brick of a line falls/);
+  });
+
   test('overlapping bricks can be drawn, are told, and cannot be run', () => {
     const text = `${row(3)}\n[[brick]]\nat_mm = [24, 1]\n`;
     const draft = engine.read(text);

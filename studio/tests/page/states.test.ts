@@ -1,10 +1,10 @@
 /** The page when something is missing or wrong, and at every size. */
 
-import { mkdir } from 'node:fs/promises';
+import { mkdir, readFile } from 'node:fs/promises';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 import { makeFragment } from '../../src/draw/link.ts';
-import { drawn, kOut, launch, makeRecording, recordingOf, serve, toppled, type Site } from './browser.ts';
+import { drawn, kOut, kRoot, launch, makeRecording, recordingOf, serve, toppled, type Site } from './browser.ts';
 
 let browser: Browser;
 let site: Site;
@@ -92,6 +92,41 @@ test('a link opened without WebGL: a sentence, the layout is there, it can be ru
   await page.goto(bare.url);
   await expect.poll(() => page.evaluate(() => window.topple?.text)).toBe(text);
   await plain.close();
+  await bare.close();
+});
+
+test('bricks put down by hand: how often all falls and where it stops; a stop keeps what is done, other errors begin anew', async () => {
+  const bare = await serve(null);
+  const page = await browser.newPage({ viewport: { width: 1300, height: 800 }, reducedMotion: 'reduce' });
+  const text = await readFile(`${kRoot}/scenes/by_hand.toml`, 'utf8');
+  await page.goto(`${bare.url}?still=off${await makeFragment({ text, hash: '' })}`);
+  await page.waitForFunction(() => window.topple?.drawn === 73 && window.topple.settled);
+  await page.getByRole('button', { name: /Topple/ }).click();
+  await toppled(page);
+  await page.evaluate(() => window.topple.pause());
+  const study = page.getByRole('region', { name: 'Put down by hand' });
+  await study.getByLabel('Runs', { exact: true }).selectOption('20');
+  await study.getByRole('button', { name: 'Run', exact: true }).click();
+  // `topple risk scenes/by_hand.toml --runs 20`
+  await expect.poll(() => study.innerText()).toMatch(/60\u00a0% all fall[\s\S]*In 12 of 20 runs; the true share is likely 39 to 78\u00a0%/);
+  await study.getByRole('button', { name: 'Run more' }).waitFor();
+  expect(await study.innerText()).toMatch(/Brick 39\s+row 3\s+40\u00a0%/);
+  await study.getByRole('button', { name: 'Show it in colours' }).click();
+  await expect.poll(() => page.locator('#heat').inputValue()).toBe('risk');
+  await study.getByLabel('Runs', { exact: true }).selectOption('2000');
+  await study.getByRole('button', { name: 'Run more' }).click();
+  await expect.poll(() => study.innerText()).toMatch(/(2[1-9]|[3-9]\d|\d{3,}) of 2,020 runs/);
+  await study.getByRole('button', { name: 'Stop' }).click();
+  await study.getByRole('button', { name: 'Run more' }).waitFor();
+  const counted = /In [\d,]+ of ([\d,]+) runs/.exec(await study.innerText());
+  expect(Number(counted?.[1].replace(',', ''))).toBeGreaterThanOrEqual(20);
+  await study.getByLabel('Off by').fill('0');
+  await study.getByLabel('Turned by').fill('0');
+  await study.getByLabel('Runs', { exact: true }).selectOption('20');
+  await study.getByRole('button', { name: 'Run', exact: true }).click();
+  await expect.poll(() => study.innerText()).toMatch(/100\u00a0% all fall[\s\S]*In 20 of 20 runs[\s\S]*0 mm and 0°[\s\S]*All 73 bricks never stopped it/);
+  await expect.poll(() => page.locator('#heat').inputValue()).toBe(''); // the colours were of what is forgotten
+  await page.close();
   await bare.close();
 });
 
