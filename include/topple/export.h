@@ -1,4 +1,4 @@
-/// Files: the only chapter that knows paths. Layouts, images and recordings in; recordings, tables, HDF5 and plots out.
+/// Files: the only chapter that knows paths. Layouts, images and recordings in; recordings, tables, HDF5, glTF and plots out.
 #pragma once
 
 #include <cstdio>
@@ -52,6 +52,14 @@ Result<void> export_events_csv(const Recording& recording, const std::filesystem
 /// The time sheet (measure_parts), a line a part.
 Result<void> export_times_csv(const Recording& recording, const std::filesystem::path& path);
 Result<void> export_hdf5(const Recording& recording, const std::filesystem::path& path);
+
+struct GltfConfig {
+  /// Straight keyframes, so many a second, for programs that leave out the tangents of curves [1/s]; 0: the curves of the recording.
+  double frames = 0.0;
+};
+/// Writes an animated scene as binary glTF 2.0 (docs/gltf.md): in metres and seconds, y up, a node a brick. The curves of free tracks are
+/// those of the recording; those of hinged ones are within Recording::tolerance() of it. More than 4 GiB is an error.
+Result<void> export_gltf(const Recording& recording, const GltfConfig& config, const std::filesystem::path& path);
 
 enum class Figure : std::uint8_t { motion, arrival, speed, energy };
 struct PlotConfig {

@@ -1,6 +1,7 @@
 """`topple replay`, `topple export`, `topple plot`: what is read from and made of a recording."""
 
 import csv
+import json
 import struct
 import unittest
 import xml.etree.ElementTree
@@ -89,6 +90,26 @@ class Export(ProgramTest):
         path = self.folder / "row.h5"
         self.succeeds("export", self.record(), "-o", path)
         self.assertEqual(path.read_bytes()[:8], b"\x89HDF\r\n\x1a\n")
+
+    def test_a_scene_is_gltf_of_all_that_is_there(self):
+        whole = self.record(ROW.replace("count = 12", "count = 100")).read_bytes()
+        cut = self.folder / "cut.topple"
+        cut.write_bytes(whole[: len(whole) * 9 // 10])
+        for options in [], ["--fps", "24"]:
+            path = self.folder / "run.glb"
+            self.succeeds("export", cut, "-o", path, *options)
+            content = path.read_bytes()
+            self.assertEqual(struct.unpack_from("<4sII", content), (b"glTF", 2, len(content)))
+            scene = json.loads(content[20 : 20 + struct.unpack_from("<I", content, 12)[0]])
+            moving = {channel["target"]["node"] for channel in scene["animations"][0]["channels"]}
+            self.assertIn(0, moving)
+            self.assertNotIn("hash", scene["asset"]["extras"])
+
+    def test_an_option_of_another_ending_is_refused(self):
+        layout = self.write("row.toml", ROW)
+        self.fails(2, "export", layout, "-o", self.folder / "a.csv", "--fps", "24", says="--fps is for")
+        self.fails(2, "export", layout, "-o", self.folder / "a.glb", "--events", says="--events chooses")
+        self.fails(2, "export", layout, "-o", self.folder / "a.gltf", says="must end in .csv, .h5 or .glb")
 
     def test_a_place_that_cannot_be_written_is_exit_code_1(self):
         self.fails(1, "export", self.record(), "-o", self.folder / "none" / "a.csv", says="none")
