@@ -34,11 +34,11 @@ class ConvergenceVerb final : public Verb {
   const char* purpose() const override { return "Draw the error of the pivot model's integrators against their time step"; }
   const char* example() const override { return "topple convergence scenes/report_row.toml -o convergence.svg"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app.add_option("LAYOUT", file_, "A layout file (.toml); its first brick falls freely from its tip angle + 1 degree")
-        ->required()
-        ->type_name("");
-    app.add_option("-o,--out", output_, "The file to write; its ending says as what")->required()->type_name("FILE.svg|.png|.pdf");
+        .required()
+        .type_name("");
+    app.add_option("-o,--out", output_, "The file to write; its ending says as what").required().type_name("FILE.svg|.png|.pdf");
   }
 
   int run() override {

@@ -1,7 +1,6 @@
 /// `topple export`: a recording as tables or as an animated scene for other programs.
 #include <cstdio>
 
-#include "misuse.h"
 #include "output.h"
 #include "source.h"
 #include "text.h"
@@ -17,16 +16,16 @@ class ExportVerb final : public Verb {
   const char* purpose() const override { return "Write a recording as CSV (knots or events), as HDF5, or as an animated scene (glTF)"; }
   const char* example() const override { return "topple export scenes/report_row.toml -o hits.csv --events"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("-o,--out", output_, "The file to write; its ending says as what")->required()->type_name("FILE.csv|.h5|.glb");
+    app.add_option("-o,--out", output_, "The file to write; its ending says as what").required().type_name("FILE.csv|.h5|.glb");
     app.add_flag("--events", events_, "The events instead of the knots of all tracks (.csv; an .h5 holds both)");
     app.add_option(
            "--fps", fps_,
            "Of a .glb: straight keyframes, so many a second, 1 to 240, for programs that leave out the tangents of curves, as Blender "
            "does; without it the curves of the recording")
-        ->type_name("N")
-        ->check(whole_number(1, 240));
+        .type_name("N")
+        .check(whole_number(1, 240));
   }
 
   int run() override {

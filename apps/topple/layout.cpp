@@ -88,11 +88,9 @@ class LayoutVerb final : public Verb {
   const char* purpose() const override { return "Check a layout file, print what it builds, and where its run may stop"; }
   const char* example() const override { return "topple layout scenes/report_row.toml"; }
 
-  void declare(CLI::App& app) override {
-    app.add_option("FILE", file_, "A layout file (.toml)")->required()->type_name("");
-    app.add_option("--set", settings_, "A setting over what the file says, as often as needed")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false);
+  void declare(Options& app) override {
+    app.add_option("FILE", file_, "A layout file (.toml)").required().type_name("");
+    app.add_option("--set", settings_, "A setting over what the file says, as often as needed").type_name("KEY=VALUE").one_word();
     app.add_flag("--json", json_, "Print one JSON object");
   }
 

@@ -56,7 +56,8 @@ int run_program(int argc, char** argv) {
     CLI::App* options = program.add_subcommand(verb->name(), verb->purpose());
     options->set_help_flag("-h,--help", "Print this help");
     options->footer(std::string("Example:\n  ") + verb->example());
-    verb->declare(*options);
+    Options declared(*options);
+    verb->declare(declared);
     choices.emplace_back(options, verb.get());
   }
   try {

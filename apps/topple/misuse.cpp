@@ -1,23 +1,11 @@
 #include "misuse.h"
 
-#include <algorithm>
-#include <charconv>
-#include <string_view>
 #include <vector>
 
 #include "text.h"
 
 namespace topple::app {
 namespace {
-
-/// "a, b or c".
-std::string listed(const std::vector<std::string>& words, const char* last) {
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    list += (i == 0 ? "" : i + 1 < words.size() ? ", " : std::string(" ") + last + " ") + words[i];
-  }
-  return list;
-}
 
 std::string names_of_verbs(const CLI::App& program) {
   std::vector<std::string> names;
@@ -37,15 +25,6 @@ std::string miscount(const std::string& words) {
   return words;
 }
 
-// Whether all of a text is one number of this range.
-template <typename Number>
-bool is_within(const std::string& text, Number least, Number most) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(text.data(), end, value);
-  return problem == std::errc() && stop == end && value >= least && value <= most;
-}
-
 }  // namespace
 
 std::string misuse_words(const CLI::App* program, const CLI::Error& error) {
@@ -62,29 +41,6 @@ std::string misuse_words(const CLI::App* program, const CLI::Error& error) {
     words = miscount(words);
   }
   return words + "\n`" + command + " --help` says more.\n";
-}
-
-CLI::Validator whole_number(int least, int most) {
-  const auto check = [=](const std::string& text) {
-    return is_within(text, least, most) ? std::string() : formatted("'%s' is not a whole number from %d to %d", text.c_str(), least, most);
-  };
-  return {check, ""};
-}
-
-CLI::Validator number(double least, double most) {
-  const auto check = [=](const std::string& text) {
-    return is_within(text, least, most) ? std::string() : formatted("'%s' is not a number from %g to %g", text.c_str(), least, most);
-  };
-  return {check, ""};
-}
-
-CLI::Validator one_of(std::initializer_list<const char*> words) {
-  const std::vector<std::string> all(words.begin(), words.end());
-  const auto check = [all](const std::string& text) {
-    const bool known = std::find(all.begin(), all.end(), text) != all.end();
-    return known ? std::string() : "'" + text + "' is not " + listed(all, "or");
-  };
-  return {check, ""};
 }
 
 }  // namespace topple::app

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <optional>
 
-#include "misuse.h"
 #include "output.h"
 #include "text.h"
 #include "topple/export.h"
@@ -79,30 +78,30 @@ class PictureVerb final : public Verb {
            "yellow,orange,red,crimson,violet,blue=400,ivory,black --start line";
   }
 
-  void declare(CLI::App& app) override {
-    app.add_option("IMAGE", image_, "An image (PNG or JPEG)")->required()->type_name("");
-    app.add_option("-o,--out", output_, "The layout to write")->required()->type_name("FILE.toml");
-    app.add_option("--bricks", bricks_, "About how many bricks in all (default 2000)")->type_name("N")->check(whole_number(1, kMostBricks));
+  void declare(Options& app) override {
+    app.add_option("IMAGE", image_, "An image (PNG or JPEG)").required().type_name("");
+    app.add_option("-o,--out", output_, "The layout to write").required().type_name("FILE.toml");
+    app.add_option("--bricks", bricks_, "About how many bricks in all (default 2000)").type_name("N").check(whole_number(1, kMostBricks));
     app.add_option("--rows", size_.rows, "How many rows, in place of --bricks; with --count the image is stretched")
-        ->type_name("N")
-        ->check(whole_number(1, kMostBricks));
+        .type_name("N")
+        .check(whole_number(1, kMostBricks));
     app.add_option("--count", size_.count, "How many bricks a row, in place of --bricks")
-        ->type_name("N")
-        ->check(whole_number(1, kMostBricks));
-    app.add_option("--width", width_, "How long the rows are [mm], in place of --count")->type_name("MM")->check(number(1.0, 1e8));
-    app.add_option("--gap", gap_, "Face to face in a row [mm] (default 8.5)")->type_name("MM")->check(number(0.0, 20000.0));
+        .type_name("N")
+        .check(whole_number(1, kMostBricks));
+    app.add_option("--width", width_, "How long the rows are [mm], in place of --count").type_name("MM").check(number(1.0, 1e8));
+    app.add_option("--gap", gap_, "Face to face in a row [mm] (default 8.5)").type_name("MM").check(number(0.0, 20000.0));
     app.add_option("--row-gap", row_gap_, "Between the rows [mm] (default 8, with --start line 52)")
-        ->type_name("MM")
-        ->check(number(0.0, 20000.0));
+        .type_name("MM")
+        .check(number(0.0, 20000.0));
     app.add_option("--colors", colors_,
                    "The colours there are, by name or as #rrggbb, and how many bricks of each: red=500,ivory (default: twelve usual ones)")
-        ->type_name("LIST")
-        ->delimiter(',');
+        .type_name("LIST")
+        .delimiter(',');
     app.add_flag("--dither", dither_, "Mix colours over neighbouring bricks where none is near");
     app.add_option("--start", start_,
                    "How the rows start: pushes, a push for each; line, a line of bricks along their heads; none (default pushes)")
-        ->type_name("NAME")
-        ->check(one_of({"pushes", "line", "none"}));
+        .type_name("NAME")
+        .check(one_of({"pushes", "line", "none"}));
   }
 
   int run() override {

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <string_view>
 
-#include "misuse.h"
 #include "output.h"
 #include "source.h"
 #include "text.h"
@@ -68,15 +67,15 @@ class PlotVerb final : public Verb {
   const char* purpose() const override { return "Draw a figure of a recording: motion, arrival, speed or energy"; }
   const char* example() const override { return "topple plot scenes/report_row.toml -o motion.svg --figure motion --bricks 0-4"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("-o,--out", output_, "The file to write; its ending says as what")->required()->type_name("FILE.svg|.png|.pdf");
+    app.add_option("-o,--out", output_, "The file to write; its ending says as what").required().type_name("FILE.svg|.png|.pdf");
     app.add_option("--figure", figure_,
                    "motion: angle, angular velocity and acceleration of chosen bricks; arrival: when the wave came, along the run; "
                    "speed: how fast, along the run; energy: through time (default motion)")
-        ->type_name("NAME")
-        ->check(one_of({"motion", "arrival", "speed", "energy"}));
-    app.add_option("--bricks", bricks_, "Bricks of a motion figure (default: the first few that moved)")->type_name("0,5,9-12");
+        .type_name("NAME")
+        .check(one_of({"motion", "arrival", "speed", "energy"}));
+    app.add_option("--bricks", bricks_, "Bricks of a motion figure (default: the first few that moved)").type_name("0,5,9-12");
   }
 
   int run() override {

@@ -10,7 +10,6 @@
 
 #include "film_browser.h"
 #include "interrupt.h"
-#include "misuse.h"
 #include "output.h"
 #include "page_server.h"
 #include "recording_bytes.h"
@@ -79,22 +78,20 @@ class RenderVerb final : public Verb {
     return "topple render scenes/s_curve.toml -o s_curve.mp4 --camera front --size 1280x720 --fps 30";
   }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("-o,--out", out_, "The film: a name that ends in .mp4 or .webm")->type_name("FILE")->required();
+    app.add_option("-o,--out", out_, "The film: a name that ends in .mp4 or .webm").type_name("FILE").required();
     app.add_option("--camera", camera_, "still, orbit, front, eye or top (default still)")
-        ->type_name("NAME")
-        ->check(one_of({"still", "orbit", "front", "eye", "top"}));
-    app.add_option("--size", size_, "Width and height in pixels (default 1280x720)")
-        ->type_name("WxH")
-        ->check(CLI::Validator(check_size, ""));
-    app.add_option("--fps", fps_, "Frames a second, 1 to 240 (default 30)")->type_name("N")->check(whole_number(1, 240));
+        .type_name("NAME")
+        .check(one_of({"still", "orbit", "front", "eye", "top"}));
+    app.add_option("--size", size_, "Width and height in pixels (default 1280x720)").type_name("WxH").check(check_size);
+    app.add_option("--fps", fps_, "Frames a second, 1 to 240 (default 30)").type_name("N").check(whole_number(1, 240));
     app.add_option("--speed", speed_, "Seconds of the run in a second of the film, 0.001 to 1000 (default 1)")
-        ->type_name("X")
-        ->check(number(0.001, 1000.0));
+        .type_name("X")
+        .check(number(0.001, 1000.0));
     app.add_option("--samples", samples_, "Pictures averaged into a frame, 1 to 256; more give soft shadows and depth of field (default 1)")
-        ->type_name("N")
-        ->check(whole_number(1, 256));
+        .type_name("N")
+        .check(whole_number(1, 256));
     app.add_flag("--no-sound", silent_, "Without the clicks of the hits");
     app.add_flag("--forces", forces_, "With what presses on what as arrows at the contacts (hinge and rigid)");
     app.add_flag("--dark", dark_, "On the dark table");

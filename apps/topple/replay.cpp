@@ -17,7 +17,7 @@ class ReplayVerb final : public Verb {
   const char* purpose() const override { return "Run a recording's recipe again and compare the hashes, step by step"; }
   const char* example() const override { return "topple run scenes/report_row.toml --out row.topple && topple replay row.topple"; }
 
-  void declare(CLI::App& app) override { app::declare(app, options_, "FILE"); }
+  void declare(Options& app) override { app::declare(app, options_, "FILE"); }
 
   int run() override {
     const std::expected<Recording, int> recording = open_recording(options_);

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "interrupt.h"
-#include "misuse.h"
 #include "progress.h"
 #include "source.h"
 #include "text.h"
@@ -75,19 +74,19 @@ class RiskVerb final : public Verb {
   }
   const char* example() const override { return "topple risk scenes/curve_u.toml --runs 20 --position-mm 1 --threads 2"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "LAYOUT");
     app.add_option("--runs", runs_, "How many runs, each with bricks put down anew (default 100)")
-        ->type_name("N")
-        ->check(whole_number(1, kMostRuns));
+        .type_name("N")
+        .check(whole_number(1, kMostRuns));
     app.add_option("--position-mm", position_,
                    "How far bricks stand from their places: standard deviation along x, and along y (default 0.5)")
-        ->type_name("MM")
-        ->check(number(0.0, 1000.0));
+        .type_name("MM")
+        .check(number(0.0, 1000.0));
     app.add_option("--heading-deg", heading_, "How far they are turned: standard deviation (default 1.7)")
-        ->type_name("DEG")
-        ->check(number(0.0, 180.0));
-    app.add_option("--kept", kept_, "Keep finished runs in this file, and take those from it that are there already")->type_name("FILE");
+        .type_name("DEG")
+        .check(number(0.0, 180.0));
+    app.add_option("--kept", kept_, "Keep finished runs in this file, and take those from it that are there already").type_name("FILE");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
   }
 

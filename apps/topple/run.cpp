@@ -74,9 +74,9 @@ class RunVerb final : public Verb {
   const char* purpose() const override { return "Run a layout and print what happened"; }
   const char* example() const override { return "topple run scenes/report_row.toml --set time_step_s=0.00025 --out row.topple"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "LAYOUT");
-    app.add_option("-o,--out", out_, "Write the recording to this file while the run goes on")->type_name("FILE.topple");
+    app.add_option("-o,--out", out_, "Write the recording to this file while the run goes on").type_name("FILE.topple");
     app.add_flag("--profile", with_profile_, "Print where the time went, stage by stage of a step");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
   }

@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "interrupt.h"
-#include "misuse.h"
 #include "native_run.h"
 #include "page_server.h"
 #include "recording_bytes.h"
@@ -53,11 +52,11 @@ class ShowVerb final : public Verb {
   const char* purpose() const override { return "Show a recording in the browser, from this machine to this machine only"; }
   const char* example() const override { return "topple show scenes/report_row.toml --port 8100 --no-browser"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "RECORDING");
     app.add_option("--port", port_, "The port, 1 to 65535 (default 8017, or the next one that is free)")
-        ->type_name("N")
-        ->check(whole_number(1, 65535));
+        .type_name("N")
+        .check(whole_number(1, 65535));
     app.add_flag("--no-browser", no_browser_, "Only print the address");
   }
 

@@ -1,12 +1,12 @@
 #include "source.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <string_view>
 
 #include "interrupt.h"
-#include "misuse.h"
 #include "progress.h"
 #include "text.h"
 #include "topple/export.h"
@@ -26,8 +26,11 @@ std::string check_setting(const std::string& setting) {
 
 std::string check_duration(const std::string& text) {
   double value = 0.0;
-  const bool number = CLI::detail::lexical_cast(text, value);
-  return number && std::isfinite(value) && value > 0.0 ? std::string() : "'" + text + "' is not a time above 0 s";
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(begin, end, value);
+  return problem == std::errc() && stop == end && std::isfinite(value) && value > 0.0 ? std::string()
+                                                                                      : "'" + text + "' is not a time above 0 s";
 }
 
 /// Options that steer a run say nothing about one that was run already.
@@ -43,30 +46,30 @@ std::string useless_option(const RunOptions& options) {
 
 }  // namespace
 
-void declare(CLI::App& app, RunOptions& options, const std::string& what) {
+void declare(Options& app, RunOptions& options, const std::string& what) {
   app.add_option(what, options.file,
                  what == "LAYOUT" ? "A layout file (.toml)" : "A recording (.topple), or a layout file (.toml), which is run first")
-      ->required()
-      ->type_name("");
+      .required()
+      .type_name("");
   app.add_option("--model", options.model,
                  "The model (pivot, hinge or rigid), over what the layout says; settings that the layout has for another one do not hold")
-      ->type_name("NAME")
-      ->check(one_of({"pivot", "hinge", "rigid"}));
+      .type_name("NAME")
+      .check(one_of({"pivot", "hinge", "rigid"}));
   app.add_option("--set", options.settings,
                  "A setting over what the layout says, as often as needed: a dotted key of the file, or one of [model]")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false)
-      ->check(CLI::Validator(check_setting, ""));
-  app.add_option("--until", options.until, "Stop at this simulated time [s]")->type_name("S")->check(CLI::Validator(check_duration, ""));
+      .type_name("KEY=VALUE")
+      .one_word()
+      .check(check_setting);
+  app.add_option("--until", options.until, "Stop at this simulated time [s]").type_name("S").check(check_duration);
   app.add_option("--threads", options.threads, "Threads, 1 to 1024 (default 1); the result does not depend on it")
-      ->type_name("N")
-      ->check(whole_number(1, kMostThreads));
+      .type_name("N")
+      .check(whole_number(1, kMostThreads));
   app.add_option(
          "--lanes", options.lanes,
          "Numbers that rigid works on side by side (1, 2 or 4); without it as many as the processor has; the result does not depend "
          "on it")
-      ->type_name("N")
-      ->check(one_of({"1", "2", "4"}));
+      .type_name("N")
+      .check(one_of({"1", "2", "4"}));
 }
 
 std::vector<std::string> overrides_of(const RunOptions& options) {

@@ -1,7 +1,6 @@
 /// What a verb works on: a recording from its file, or one made on the spot by running a layout.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <expected>
 #include <filesystem>
 #include <functional>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "options.h"
 #include "topple/run.h"
 
 namespace topple::app {
@@ -25,7 +25,7 @@ struct RunOptions {
 };
 
 /// Adds the file (called `what` in the help) and the options above.
-void declare(CLI::App& app, RunOptions& options, const std::string& what);
+void declare(Options& app, RunOptions& options, const std::string& what);
 
 /// The settings as the layout reader takes them, --model among them.
 std::vector<std::string> overrides_of(const RunOptions& options);

@@ -3,7 +3,6 @@
 #include <fstream>
 
 #include "interrupt.h"
-#include "misuse.h"
 #include "native_run.h"
 #include "page_server.h"
 #include "text.h"
@@ -21,11 +20,11 @@ class StudioVerb final : public Verb {
   const char* purpose() const override { return "Draw layouts in the browser; or write the page as plain files for any server"; }
   const char* example() const override { return "topple studio --export site"; }
 
-  void declare(CLI::App& app) override {
-    app.add_option("--export", folder_, "Write the page's files into this folder instead of serving them")->type_name("DIR");
+  void declare(Options& app) override {
+    app.add_option("--export", folder_, "Write the page's files into this folder instead of serving them").type_name("DIR");
     app.add_option("--port", port_, "The port, 1 to 65535 (default 8017, or the next one that is free)")
-        ->type_name("N")
-        ->check(whole_number(1, 65535));
+        .type_name("N")
+        .check(whole_number(1, 65535));
   }
 
   int run() override {

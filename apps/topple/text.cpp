@@ -42,6 +42,14 @@ std::string byte_size(std::uint64_t bytes) {
 
 std::string count_of(std::int64_t number, const std::string& noun) { return grouped(number) + " " + noun + (number == 1 ? "" : "s"); }
 
+std::string listed(const std::vector<std::string>& words, const char* last) {
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    list += (i == 0 ? "" : i + 1 < words.size() ? ", " : std::string(" ") + last + " ") + words[i];
+  }
+  return list;
+}
+
 int complain(const std::string& message, int exit_code) {
   const bool ended = !message.empty() && message.back() == '\n';
   std::fprintf(stderr, ended ? "%s" : "%s\n", message.c_str());

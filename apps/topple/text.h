@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "topple/base.h"
 
@@ -19,6 +20,9 @@ std::string byte_size(std::uint64_t bytes);
 
 /// "1 brick", "3 bricks".
 std::string count_of(std::int64_t number, const std::string& noun);
+
+/// "a, b or c", with `last` between the last two.
+std::string listed(const std::vector<std::string>& words, const char* last);
 
 /// Prints an error to standard error as it is and gives back the exit code.
 int complain(const Error& error, int exit_code);

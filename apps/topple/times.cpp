@@ -50,9 +50,9 @@ class TimesVerb final : public Verb {
   const char* purpose() const override { return "The time sheet: when the wave comes to every part, how long it takes, who brings it"; }
   const char* example() const override { return "topple times scenes/by_hand.toml"; }
 
-  void declare(CLI::App& app) override {
+  void declare(Options& app) override {
     app::declare(app, options_, "RECORDING");
-    app.add_option("-o,--out", output_, "Write the sheet as a table for other programs")->type_name("FILE.csv");
+    app.add_option("-o,--out", output_, "Write the sheet as a table for other programs").type_name("FILE.csv");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
   }
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "interrupt.h"
-#include "misuse.h"
 #include "text.h"
 #include "topple/validation.h"
 #include "verb.h"
@@ -90,17 +89,15 @@ class ValidateVerb final : public Verb {
   const char* purpose() const override { return "Compare the models with published measurements"; }
   const char* example() const override { return "topple validate --quick"; }
 
-  void declare(CLI::App& app) override {
-    app.add_option("NAME", config_.names, "Only these sources (folders of validation/)")->type_name("");
+  void declare(Options& app) override {
+    app.add_option("NAME", config_.names, "Only these sources (folders of validation/)").type_name("");
     app.add_flag("--quick", config_.quick, "Only what takes seconds; the rest is left out");
     app.add_flag("--json", json_, "Print one JSON object and nothing else to standard output");
-    app.add_option("--html", page_, "Write the page and its figures into this folder")->type_name("DIR");
-    app.add_option("--threads", config_.threads, "Runs at the same time, 1 to 256 (default 1)")
-        ->type_name("N")
-        ->check(whole_number(1, 256));
+    app.add_option("--html", page_, "Write the page and its figures into this folder").type_name("DIR");
+    app.add_option("--threads", config_.threads, "Runs at the same time, 1 to 256 (default 1)").type_name("N").check(whole_number(1, 256));
     app.add_flag("--fresh", config_.fresh, "Run everything again, whatever is kept");
-    app.add_option("--kept", kept_, "Where finished runs are kept (default: in ~/.cache/topple)")->type_name("FILE");
-    app.add_option("--sources", sources_, "The folder of the sources (default: validation)")->type_name("DIR");
+    app.add_option("--kept", kept_, "Where finished runs are kept (default: in ~/.cache/topple)").type_name("FILE");
+    app.add_option("--sources", sources_, "The folder of the sources (default: validation)").type_name("DIR");
     app.footer(
         "Exit codes: 0 every claim holds, 1 one does not, 2 bad input, 130 interrupted (finished runs are kept).\n\nExample:\n  topple "
         "validate --quick");

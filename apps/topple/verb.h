@@ -1,9 +1,10 @@
 /// The verbs of the command line: each is one file and knows its own options.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <vector>
+
+#include "options.h"
 
 namespace topple::app {
 
@@ -18,10 +19,10 @@ class Verb {
  public:
   virtual ~Verb() = default;
   virtual const char* name() const = 0;
-  virtual const char* purpose() const = 0;      ///< One line for the list of verbs.
-  virtual const char* example() const = 0;      ///< A shell line that works in the project's folder.
-  virtual void declare(CLI::App& options) = 0;  ///< Adds its options.
-  virtual int run() = 0;                        ///< After parsing; gives the exit code.
+  virtual const char* purpose() const = 0;     ///< One line for the list of verbs.
+  virtual const char* example() const = 0;     ///< A shell line that works in the project's folder.
+  virtual void declare(Options& options) = 0;  ///< Adds its options.
+  virtual int run() = 0;                       ///< After parsing; gives the exit code.
 };
 
 std::unique_ptr<Verb> layout_verb();
