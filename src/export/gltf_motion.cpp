@@ -20,6 +20,10 @@ constexpr int kMostHalvings = 12;
 // Upright, as exactly as the moment is looked for [rad].
 constexpr double kUpright = 1e-12;
 
+// A damaged file may last for ever; single numbers tell frames apart up to here.
+constexpr double kMostFrame = 0x1p24;
+std::int64_t frame_number(double frame) { return static_cast<std::int64_t>(std::clamp(frame, 0.0, kMostFrame)); }
+
 /// Turns the quintics of one hinged track into knots of position and quaternion.
 class HingedToFree {
  public:
@@ -208,8 +212,8 @@ void straight_keys(const Layout& layout, std::span<const Track> tracks, double r
   std::int64_t next = 0;  // The frames before it are written.
   for (const Track& track : tracks) {
     const Vec3 put = standing_pose(layout, track.brick).position;
-    const auto last = static_cast<std::int64_t>(std::ceil(end_of(track) * rate));
-    for (next = std::max(next, static_cast<std::int64_t>(std::floor(track.start * rate))); next <= last; ++next) {
+    const auto last = frame_number(std::ceil(end_of(track) * rate));
+    for (next = std::max(next, frame_number(std::floor(track.start * rate))); next <= last; ++next) {
       const double time = static_cast<double>(next) / rate;
       const FreeState state = state_at(track.free, time - track.start);
       writer.add_straight(static_cast<float>(time), put + state.offset, state.orientation);

@@ -125,10 +125,10 @@ Recording run(const std::string& layout_text) {
 
 /// How far a corner is from where the recording has it at the worst of many moments, those of the keyframes too, as a fraction of the
 /// thickness.
-double worst(const GlbFile& file, const Recording& recording, BrickId brick, double from = 0.0) {
+double worst(const GlbFile& file, const Recording& recording, BrickId brick) {
   const BrickKind& kind = recording.layout().kind_of(brick);
   std::vector<double> moments;
-  for (int i = 0; i <= 4000; ++i) moments.push_back(from + (recording.duration() + 0.1 - from) * i / 4000);
+  for (int i = 0; i <= 1500; ++i) moments.push_back((recording.duration() + 0.1) * i / 1500);
   if (file.moves(brick)) {
     for (const float time : file.numbers(file.sampler(brick, "translation")["input"])) moments.push_back(double{time});
   }
