@@ -140,7 +140,7 @@ Result<void> Glb::write(const Frame& frame, const std::filesystem::path& path) c
   if (!file) return std::unexpected(file.error());
   Result<void> written;
   const auto put = [&](std::span<const std::uint8_t> bytes) {
-    if (written) written = file->write(bytes);
+    if (written && !bytes.empty()) written = file->write(bytes);
   };
   const auto put_words = [&](std::initializer_list<std::uint64_t> words) {
     for (const std::uint64_t word : words) {
