@@ -31,7 +31,7 @@ CORE = ["base", "layout", "picture", "model", "pivot", "hinge", "rigid", "record
 # Third parties, and the operating system, by the chapter that may have them.
 FOREIGN = {
     "layout": r"toml\+\+/.*",
-    "export": r"hdf5.*|H5.*|stb/.*|nlohmann/.*",
+    "export": r"hdf5.*|H5.*|stb/.*|cairo/.*|nlohmann/.*",
     "validation": r"toml\+\+/.*|nlohmann/.*",
     "apps": r"CLI/.*|httplib\.h|nlohmann/.*",
 }

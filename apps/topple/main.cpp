@@ -18,6 +18,7 @@ std::vector<std::unique_ptr<Verb>> all_verbs() {
   std::vector<std::unique_ptr<Verb>> verbs;
   verbs.push_back(layout_verb());
   verbs.push_back(picture_verb());
+  verbs.push_back(plan_verb());
   verbs.push_back(run_verb());
   verbs.push_back(times_verb());
   verbs.push_back(risk_verb());

@@ -27,6 +27,7 @@ class Verb {
 
 std::unique_ptr<Verb> layout_verb();
 std::unique_ptr<Verb> picture_verb();
+std::unique_ptr<Verb> plan_verb();
 std::unique_ptr<Verb> run_verb();
 std::unique_ptr<Verb> times_verb();
 std::unique_ptr<Verb> risk_verb();

@@ -1,4 +1,4 @@
-/// Files: the only chapter that knows paths. Layouts, images and recordings in; recordings, tables, HDF5, glTF and plots out.
+/// Files: the only chapter that knows paths. Layouts, images and recordings in; recordings, tables, HDF5, glTF, plots and plans out.
 #pragma once
 
 #include <cstdio>
@@ -68,6 +68,23 @@ struct PlotConfig {
 };
 /// Draws with gnuplot; the format follows the path's extension: .svg, .png or .pdf.
 Result<void> plot(const Recording& recording, const PlotConfig& config, const std::filesystem::path& path);
+
+/// A plan for the table: the whole layout from above, true to scale.
+struct PlanConfig {
+  double scale = 0.0;  ///< N of 1:N, 1 to 100,000; 0: the largest usual one (1, 2, 2.5, 5, 10 ...) at which one sheet holds the layout.
+  std::string paper;   ///< "A4" to "A0" or "letter"; empty: the smallest of A4 to A0 on which bricks can be told apart.
+};
+/// What was drawn.
+struct PlanSheets {
+  double scale = 0.0;
+  std::string paper;   ///< Empty: an SVG of a size of its own.
+  int sheets = 1;      ///< Besides the first page, which shows how they lie, where there are several.
+  bool bricks = true;  ///< Every brick is drawn; otherwise rows are lines, since a brick would be thinner than 0.3 mm.
+};
+/// Draws a plan, as PDF or SVG as the path ends in .pdf or .svg. What does not fit one sheet at the scale goes over several, PDF alone;
+/// an SVG is as large as the scale needs. A scale or a paper that cannot be, a layout without bricks, or more than 500 sheets is an error
+/// in words. The same layout gives the same bytes on one machine.
+Result<PlanSheets> draw_plan(const Layout& layout, const PlanConfig& config, const std::filesystem::path& path);
 
 /// How the error of an integrator shrinks with its time step.
 struct ErrorCurve {

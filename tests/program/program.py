@@ -12,7 +12,7 @@ import unittest
 
 PROGRAM = os.environ.get("TOPPLE_PROGRAM", "topple")
 SOURCE = pathlib.Path(os.environ.get("TOPPLE_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
-VERBS = ["layout", "picture", "run", "times", "risk", "show", "studio", "render", "plot", "export", "replay", "convergence", "validate"]
+VERBS = ["layout", "picture", "plan", "run", "times", "risk", "show", "studio", "render", "plot", "export", "replay", "convergence", "validate"]
 PATIENCE_S = 600  # A sanitizer on a busy machine is slow; no test waits this long when all is well.
 
 ROW = """title = "A row"

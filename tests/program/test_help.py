@@ -72,8 +72,8 @@ class Help(ProgramTest):
     def test_misuse_is_told_in_plain_words(self):
         layout = self.write("row.toml", "")
         for arguments, words in [
-            ([], "A command is missing; there are layout, picture, run, times, risk, show, studio, render, plot, export, replay, convergence and validate."),
-            (["fly"], "'fly' is no command of topple; there are layout, picture, run, "),
+            ([], "A command is missing; there are layout, picture, plan, run, times, risk, show, studio, render, plot, export, replay, convergence and validate."),
+            (["fly"], "'fly' is no command of topple; there are layout, picture, plan, run, "),
             (["run", layout, "--fast"], "'--fast' is no option of topple run."),
             (["run", layout, "again"], "'again' is one word too many for topple run."),
             (["run", layout, "--out"], "--out needs a value."),
