@@ -143,9 +143,9 @@ class Draughtsman {
   Title title(double scale, const Pages* pages) const {
     return {.title = layout_.title,
             .file = std::filesystem::path(layout_.name).filename().string(),
-            .scale = scale_text(choice_.scale),
+            .scale = scale_text(scale),
             .paper = choice_.paper,
-            .sheets = pages == nullptr ? "1 of 1" : "all " + std::to_string(pages->count()) + ", at " + scale_text(scale),
+            .sheets = pages == nullptr ? "1 of 1" : "all " + std::to_string(pages->count()) + ", of " + scale_text(choice_.scale),
             .bricks = count_text(summary_.bricks),
             .size = size_text(summary_),
             .bar_scale = scale};

@@ -21,12 +21,22 @@ class Plan(ProgramTest):
                        "domino, 48 \u00d7 24 \u00d7 7.5 mm"]:
             self.assertIn(wanted, words)
 
+    def test_what_a_table_has_no_room_for_is_counted(self):
+        path = self.folder / "plan.pdf"
+        rows = "".join(f'[[row]]\nfrom_mm = [{60 * i}, 0]\ncount = 2\npitch_mm = 24\ncolor = "#0000{i:02x}"\n' for i in range(35))
+        self.succeeds("plan", self.write("rows.toml", rows), "-o", path, "--paper", "A4")
+        words = self.words(path)
+        listed = len([line for line in words.splitlines() if "#0000" in line])
+        self.assertLess(listed, 12)
+        self.assertRegex(words, rf"and {35 - listed} more colours +{2 * (35 - listed)}\b")
+
     def test_several_sheets_are_numbered_and_named(self):
         path = self.folder / "plan.pdf"
         result = self.succeeds("plan", self.write("row.toml", ROW), "-o", path, "--scale", "1:1", "--paper", "A4")
         self.assertEqual(result.stdout, "1:1 on 2 sheets of A4, and one that shows where they lie\n")
         words = self.words(path)
         self.assertIn("Sheet 2 of 2, 1:1", words)
+        self.assertIn("all 2, of 1:1", words)
         self.assertEqual(words.count("A row: row 1"), 2)
         self.assertEqual(words.count("\f"), 3)
 

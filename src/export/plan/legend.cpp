@@ -25,6 +25,7 @@ struct Row {
   bool heading = false;
   std::function<void(Canvas&, const Point&)> sign;  ///< Drawn around a point at the middle of the line's left end; may be empty.
   double indent = 0.0;                              ///< Of the words [mm].
+  std::size_t stands_for = 1;                       ///< Rows, where it says how many are left out.
   bool goes_on = false;                             ///< The sentence of the row before.
 };
 
@@ -39,12 +40,13 @@ struct Table {
 void cut_to(Table& table, std::size_t rows) {
   if (table.rows.size() <= rows || rows < 2) return;
   while (rows > 2 && table.rows[rows - 1].goes_on) --rows;  // Whole sentences.
-  Row last{.indent = table.rows[rows - 2].indent};
-  for (std::size_t i = rows - 1; i < table.rows.size(); ++i) last.bricks += table.rows[i].bricks;
-  last.words = table.left_out;
-  if (const std::size_t place = last.words.find('%'); place != std::string::npos) {
-    last.words.replace(place, 1, std::to_string(table.rows.size() - rows + 1));
+  Row last{.words = table.left_out, .indent = table.rows[rows - 2].indent, .stands_for = 0};
+  for (std::size_t i = rows - 1; i < table.rows.size(); ++i) {
+    last.bricks += table.rows[i].bricks;
+    last.stands_for += table.rows[i].stands_for;
   }
+  if (const std::size_t place = last.words.find('%'); place != std::string::npos)
+    last.words.replace(place, 1, std::to_string(last.stands_for));
   if (last.bricks > 0) last.number = count_text(last.bricks);
   table.rows.resize(rows - 1);
   table.rows.push_back(std::move(last));
@@ -246,7 +248,9 @@ void draw_title(Canvas& canvas, const Rect& rect, const Title& title) {
     canvas.rect({x, top, (to - from) * rect.width, kCell});
     canvas.stroke(kBlack, 0.2);
     canvas.text({x + 1.2, top + 3.1}, what, {.size = kSmall, .ink = kGrey});
-    canvas.text({x + 1.2, top + 7.1}, canvas.fitted(words, (to - from) * rect.width - 2.0, 3.2, true), {.size = 3.2, .bold = true});
+    const double room = (to - from) * rect.width - 2.0;
+    const double size = canvas.width_of(words, 3.2, true) <= room ? 3.2 : kSmall;
+    canvas.text({x + 1.2, top + 7.1}, canvas.fitted(words, room, size, true), {.size = size, .bold = true});
   };
   cell(0, 0.0, 0.32, "scale", title.scale);
   cell(0, 0.32, 0.62, "paper", title.paper.empty() ? "as needed" : title.paper);
