@@ -14,6 +14,12 @@ constexpr std::size_t kBatch = 400;  // Footprints of one colour in one path.
 
 double edge_width(double thickness) { return std::clamp(0.11 * thickness, 0.05, 0.16); }
 
+/// Hard to see on white paper.
+bool is_light(const Color& color) {
+  constexpr int kLight = 600;  // Of 765, red, green and blue together.
+  return int{color.red} + color.green + color.blue > kLight;
+}
+
 Extents size_of(const Layout& layout, BrickId brick) {
   const Brick& put = layout.bricks[static_cast<std::size_t>(brick)];
   return extents(layout.kinds[put.kind], put.stance);
@@ -107,13 +113,12 @@ class Polyline {
 
   void end() {
     // An edge of grey where a row would not be seen on white paper.
-    if (int{color_.red} + color_.green + color_.blue > kLight) draw(kOutline, width_ + 0.08);
+    if (is_light(color_)) draw(kOutline, width_ + 0.08);
     draw(color_, width_);
     points_.clear();
   }
 
  private:
-  static constexpr int kLight = 600;          // Of 765, red, green and blue together.
   static constexpr double kShortest = 0.25;   // [mm]
   static constexpr double kStraight = 0.015;  // [mm]
 
@@ -264,7 +269,15 @@ void draw_bricks(Canvas& canvas, const Layout& layout, const View& view, const s
       add_outline(canvas, layout, bricks[end], view);
       ++end;
     }
-    canvas.fill_and_stroke(layout.colors[first.color], kOutline, edge_width(view.on_page(layout.kinds[first.kind].thickness)));
+    const Color& color = layout.colors[first.color];
+    const double thickness = view.on_page(layout.kinds[first.kind].thickness);
+    // Around thin bricks edges would be most of what is seen on a screen: only those have one that white paper would swallow.
+    constexpr double kThin = 0.5;
+    if (thickness < kThin && !is_light(color)) {
+      canvas.fill(color);
+    } else {
+      canvas.fill_and_stroke(color, kOutline, edge_width(thickness));
+    }
     i = end;
   }
   for (const BrickId brick : bricks) {
