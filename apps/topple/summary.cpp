@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <chrono>
-#include <cinttypes>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -54,26 +53,6 @@ Cost cost_so_far() {
   return cost;
 }
 
-const char* name_of(EndReason reason) {
-  switch (reason) {
-    case EndReason::running:
-      return "running";
-    case EndReason::at_rest:
-      return "at_rest";
-    case EndReason::time_limit:
-      return "time_limit";
-    case EndReason::wave_died:
-      return "wave_died";
-    case EndReason::not_finite:
-      return "not_finite";
-    case EndReason::stopped:
-      return "stopped";
-  }
-  return "running";
-}
-
-std::string hash_digits(std::uint64_t hash) { return formatted("%016" PRIx64, hash); }
-
 Json summary_json(const Recording& recording) {
   const RunSummary run = summarize(recording);
   const RunEnd& end = recording.end();
@@ -111,7 +90,7 @@ std::string summary_text(const Recording& recording) {
   line("front speed", std::isfinite(run.front_speed) ? formatted("%.4g m/s", run.front_speed) : "none, the wave is too short");
   line("duration", formatted("%.4g s", run.duration));
   line("model", recording.recipe().model + formatted(", time step %.4g ms", 1e3 * recording.recipe().time_step));
-  line("end", end.words.empty() ? name_of(end.reason) : end.words);
+  line("end", end.words.empty() ? std::string(name_of(end.reason)) : end.words);
   line("hash", hash_digits(end.hash));
   return text;
 }

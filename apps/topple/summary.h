@@ -17,12 +17,6 @@ struct Cost {
 };
 Cost cost_so_far();
 
-/// "at_rest", "time_limit", "wave_died", "not_finite", "stopped", "running".
-const char* name_of(EndReason reason);
-
-/// 16 hexadecimal digits.
-std::string hash_digits(std::uint64_t hash);
-
 nlohmann::ordered_json summary_json(const Recording& recording);
 std::string summary_text(const Recording& recording);
 

@@ -24,6 +24,9 @@ using Result = std::expected<T, Error>;
 
 [[nodiscard]] inline std::unexpected<Error> failure(std::string message) { return std::unexpected(Error{std::move(message)}); }
 
+/// 16 hexadecimal digits.
+std::string hash_digits(std::uint64_t hash);
+
 /// A brick's place in layout order, from 0; what messages and files call a brick.
 using BrickId = std::int32_t;
 inline constexpr BrickId kNoBrick = -1;

@@ -1,6 +1,7 @@
 /// A layout: every brick at its true size and place, the floor, the pushes. Checked once while reading, then constant.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -153,6 +154,11 @@ struct Doubt {
   double amount = 0.0;  ///< By how much [m].
   std::string words;    ///< As a sentence.
 };
+/// "beyond_reach": the word for it in tables and for programs.
+constexpr std::string_view name_of(Doubt::Kind kind) {
+  return std::array<std::string_view, 5>{"overlap", "miss", "beyond_reach", "no_neighbour", "no_push"}[static_cast<std::size_t>(kind)];
+}
+
 /// What geometry alone says against a layout: overlaps, and the first brick of each part or stretch that no falling brick reaches.
 /// The most serious first, no more than `most` of each sort.
 std::vector<Doubt> find_doubts(const Layout& layout, std::size_t most = 50);

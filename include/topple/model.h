@@ -1,10 +1,12 @@
 /// A model: the one interface of all physics. Built from a Layout that it never changes; owns all that moves.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -13,6 +15,10 @@
 namespace topple {
 
 enum class Phase : std::uint8_t { standing, falling, resting };
+/// "standing": the word for it in tables and for programs.
+constexpr std::string_view name_of(Phase phase) {
+  return std::array<std::string_view, 3>{"standing", "falling", "resting"}[static_cast<std::size_t>(phase)];
+}
 
 /// A brick that turns about its toe or heel: one angle.
 struct HingedState {
@@ -89,6 +95,10 @@ enum class EventKind : std::uint8_t {
   missed,   ///< It fell flat without reaching the next brick of its part.
   rested    ///< It came to rest.
 };
+/// "pushed": the word for it in tables and for programs.
+constexpr std::string_view name_of(EventKind kind) {
+  return std::array<std::string_view, 6>{"pushed", "struck", "arrived", "landed", "missed", "rested"}[static_cast<std::size_t>(kind)];
+}
 inline constexpr double kArrivalTilt = 0.17453292519943295;  ///< 10 degrees [rad].
 
 /// Something that happened inside the last step, at its time.

@@ -19,6 +19,11 @@ struct Recipe {
 };
 
 enum class EndReason : std::uint8_t { running, at_rest, time_limit, wave_died, not_finite, stopped };
+/// "at_rest": the word for it in tables and for programs.
+constexpr std::string_view name_of(EndReason reason) {
+  return std::array<std::string_view, 6>{
+      "running", "at_rest", "time_limit", "wave_died", "not_finite", "stopped"}[static_cast<std::size_t>(reason)];
+}
 struct RunEnd {
   EndReason reason = EndReason::running;  ///< `running` in a recording that was cut off.
   BrickId brick = kNoBrick;               ///< Where the wave died, or whose numbers are not finite.

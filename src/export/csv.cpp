@@ -121,12 +121,11 @@ Result<void> export_knots_csv(const Recording& recording, const std::filesystem:
 }
 
 Result<void> export_events_csv(const Recording& recording, const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 6> kWords = {"pushed", "struck", "arrived", "landed", "missed", "rested"};
   auto table = create(path, "time_s,event,brick,by,force_n,impulse_n_s,x_m,y_m,z_m");
   if (!table) return std::unexpected(table.error());
   for (std::int64_t i = 0; i < recording.event_count(); ++i) {
     const Event event = recording.event(i);
-    table->cell(event.time).word(kWords[static_cast<std::size_t>(event.kind)]).cell(event.brick);
+    table->cell(event.time).word(name_of(event.kind)).cell(event.brick);
     add_brick(*table, event.by);
     // Both were kept as floats.
     table->cell(static_cast<float>(event.force)).cell(static_cast<float>(event.impulse));

@@ -7,6 +7,7 @@
 #include "export/gltf_axes.h"
 #include "export/gltf_mesh.h"
 #include "export/gltf_motion.h"
+#include "layout/text.h"
 #include "topple/export.h"
 
 namespace topple {
@@ -14,22 +15,6 @@ namespace {
 
 // Of the bricks in the page.
 constexpr float kRoughness = 0.36F;
-
-std::string words_of(const Color& color) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string words = "#";
-  for (const std::uint8_t part : {color.red, color.green, color.blue}) {
-    words += kDigits[part / 16];
-    words += kDigits[part % 16];
-  }
-  return words;
-}
-
-std::string digits_of(std::uint64_t hash) {
-  std::string digits(16, '0');
-  for (std::size_t i = digits.size(); i-- > 0; hash /= 16) digits[i] = "0123456789abcdef"[hash % 16];
-  return digits;
-}
 
 // The sRGB transfer function of IEC 61966-2-1, backwards.
 float linear(std::uint8_t part) {
@@ -48,7 +33,7 @@ GltfJson recipe(const Recording& recording, const std::string& title) {
                      {"layout_toml", layout.text},
                      {"overrides", layout.overrides},
                      {"duration_s", recording.duration()}};
-  if (recording.end().reason != EndReason::running) extras["hash"] = digits_of(recording.end().hash);
+  if (recording.end().reason != EndReason::running) extras["hash"] = hash_digits(recording.end().hash);
   return extras;
 }
 
@@ -101,7 +86,7 @@ class Scene {
       const GltfJson primitive = {
           {"attributes", {{"POSITION", shape.places}, {"NORMAL", shape.normals}}}, {"indices", shape.corners}, {"material", material}};
       glb_.meshes.add(
-          {{"name", layout_.kinds[kind].name + " " + words_of(layout_.colors[color])}, {"primitives", GltfJson::array({primitive})}});
+          {{"name", layout_.kinds[kind].name + " " + color_text(layout_.colors[color])}, {"primitives", GltfJson::array({primitive})}});
     }
     return mesh->second;
   }
@@ -113,7 +98,7 @@ class Scene {
       const GltfJson paint = {{"baseColorFactor", {linear(c.red), linear(c.green), linear(c.blue), 1.0F}},
                               {"metallicFactor", 0.0F},
                               {"roughnessFactor", kRoughness}};
-      glb_.materials.add({{"name", words_of(c)}, {"pbrMetallicRoughness", paint}});
+      glb_.materials.add({{"name", color_text(c)}, {"pbrMetallicRoughness", paint}});
     }
     return material->second;
   }

@@ -35,8 +35,7 @@ void write_recipe(Writer& file, const Recording& recording) {
   file.text("recipe/overrides", overrides, "key=value, a line each");
   file.text("recipe/layout_toml", layout.text, "the layout file");
   file.group("end", "how the run ended");
-  constexpr std::array<std::string_view, 6> kReasons = {"running", "at_rest", "time_limit", "wave_died", "not_finite", "stopped"};
-  file.attribute("end", "reason", kReasons[static_cast<std::size_t>(end.reason)]);
+  file.attribute("end", "reason", name_of(end.reason));
   file.attribute("end", "words", end.words);
   file.attribute("end", "brick", end.brick);
   file.attribute("end", "steps", end.step);

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -101,9 +99,7 @@ std::string RiskStudy::key() const {
   Hash hash;
   for (const double number : {error_.position, error_.heading, config_.until}) hash.add(number);
   hash.add(exact_.end().hash);
-  std::array<char, 20> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash.value()));
-  return exact_.recipe().version + "-" + exact_.recipe().model + "-" + digits.data();
+  return exact_.recipe().version + "-" + exact_.recipe().model + "-" + hash_digits(hash.value());
 }
 
 void RiskStudy::add(PlacedRun run) {

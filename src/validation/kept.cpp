@@ -1,6 +1,5 @@
 #include "validation/kept.h"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -38,10 +37,7 @@ Result<KeptRuns> KeptRuns::open(const std::filesystem::path& path, bool fresh) {
 }
 
 std::string KeptRuns::name(const std::string& model, std::uint64_t fingerprint, const Job& job) {
-  std::array<char, 40> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), "%016llx-%016llx", static_cast<unsigned long long>(fingerprint),
-                static_cast<unsigned long long>(job.key()));
-  return std::string(TOPPLE_VERSION) + "-" + model + "-" + numbers.data();
+  return std::string(TOPPLE_VERSION) + "-" + model + "-" + hash_digits(fingerprint) + "-" + hash_digits(job.key());
 }
 
 std::optional<Outcome> KeptRuns::find(const std::string& name) const {

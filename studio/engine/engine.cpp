@@ -21,17 +21,12 @@ void add_counts(std::string& json, const char* name, const std::vector<LayoutSum
   json += "]";
 }
 
-const char* name_of(Doubt::Kind kind) {
-  constexpr const char* kNames[] = {"overlap", "miss", "beyond_reach", "no_neighbour", "no_push"};
-  return kNames[static_cast<int>(kind)];
-}
-
 void add_doubts(std::string& json, const std::vector<Doubt>& doubts) {
   json += ",\"doubts\":[";
   for (std::size_t i = 0; i < doubts.size(); ++i) {
     const Doubt& doubt = doubts[i];
     json += i == 0 ? "" : ",";
-    json += std::string("{\"kind\":\"") + name_of(doubt.kind) + "\",\"brick\":" + std::to_string(doubt.brick) +
+    json += std::string("{\"kind\":\"") + std::string(name_of(doubt.kind)) + "\",\"brick\":" + std::to_string(doubt.brick) +
             ",\"other\":" + std::to_string(doubt.other) + ",\"amount\":";
     add_number(json, doubt.amount);
     json += ",\"words\":";
@@ -105,12 +100,6 @@ std::string describe(const Picture& picture) {
   json += "],\"text\":";
   add_text(json, picture_text(picture));
   return json + "}";
-}
-
-std::string hash_digits(std::uint64_t hash) {
-  char text[20];
-  std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(hash));
-  return text;
 }
 
 }  // namespace
