@@ -238,11 +238,23 @@ TEST_CASE("rigid: bricks of a straight row never turn about the vertical") {
   }
 }
 
-// The first brick falls in steps of a third where it moves alone: 0.1 percent between them.
-TEST_CASE("rigid: a straight row that bounces falls alike in its plane and with six degrees of freedom, within 0.2 percent") {
+TEST_CASE("rigid: where every brick moves, a straight row that has fallen goes on with six degrees of freedom, and none rests") {
+  const Layout layout = straight_row(20, 0.024, {});
+  auto model = rigid::make_rigid_model(layout, {.every_brick_moves = true});
+  REQUIRE(model.has_value());
+  Frame frame;
+  for (int step = 0; step < 600; ++step) REQUIRE((*model)->step().progress == Progress::running);
+  (*model)->read(frame);
+  CHECK(frame.free.size() == 20);
+  for (const FreeMotion& brick : frame.free) CHECK(brick.phase == Phase::falling);
+}
+
+// The first brick falls in steps of a third where it moves alone: 0.1 percent between them. From the tenth brick on what bounces is no
+// longer straight with six degrees of freedom (docs/rigid.md).
+TEST_CASE("rigid: a straight row that bounces begins alike in its plane and with six degrees of freedom, within 0.2 percent") {
   for (const double restitution : {0.0, 0.3, 0.6}) {
     CAPTURE(restitution);
-    const Layout layout = straight_row(12, 0.024, {.brick_restitution = restitution, .floor_restitution = restitution});
+    const Layout layout = straight_row(8, 0.024, {.brick_restitution = restitution, .floor_restitution = restitution});
     const RigidRun in_plane = run_rigid(layout, 0.0, 1.5);
     auto model = rigid::make_rigid_model(layout, {.every_brick_moves = true});
     REQUIRE(model.has_value());

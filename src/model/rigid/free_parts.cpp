@@ -23,7 +23,7 @@ int root_of(std::vector<int>& above, int i) {
 
 int FreeFront::find_parts() {
   may_part_ = false;
-  if (!ledger_.met.empty() || world_.every_brick_moves) return 1;
+  if (!ledger_.met.empty()) return 1;
   std::vector<int>& above = above_;
   above.resize(bricks_.bodies.size());
   std::iota(above.begin(), above.end(), 0);

@@ -183,8 +183,9 @@ void RigidModel::join_fronts() {
   }
 }
 
-// Parts of a front that no longer reach each other become fronts of their own, and straight rows go on in their plane.
+// Parts of a front that no longer reach each other become fronts of their own, and straight rows go on in their plane, where bricks rest.
 void RigidModel::part_fronts() {
+  if (world_.every_brick_moves) return;
   const Timed timed(world_.profile, Stage::part);
   for (std::size_t i = 0; i < fronts_.size(); ++i) {
     if (fronts_[i] == nullptr || !fronts_[i]->general()) continue;
