@@ -24,6 +24,7 @@ USES = {
     "validation": ["run", "measure", "export"],
     "all": ["run", "measure", "sweep", "export", "validation"],  # include/topple/topple.h
     "apps": ["all"],
+    "python": ["all"],
 }
 MODELS = ["pivot", "hinge", "rigid"]
 CORE = ["base", "layout", "picture", "model", "pivot", "hinge", "rigid", "recording", "run", "measure", "sweep"]
@@ -33,6 +34,7 @@ FOREIGN = {
     "layout": r"toml\+\+/.*",
     "export": r"hdf5.*|H5.*|stb/.*|cairo/.*|nlohmann/.*",
     "validation": r"toml\+\+/.*|nlohmann/.*",
+    "python": r"pybind11/.*",
     "apps": r"CLI/.*|httplib\.h|nlohmann/.*",
 }
 SYSTEM = r"(sys|netinet|arpa)/.*|unistd\.h|fcntl\.h|poll\.h|signal\.h|spawn\.h|pthread\.h|termios\.h"
@@ -65,8 +67,8 @@ def reach(chapter):
 def chapter_of(path):
     """The chapter that a path of the tree belongs to, or None for what is free (tests)."""
     parts = path.parts
-    if parts[0] == "apps":
-        return "apps"
+    if parts[0] in ("apps", "python"):
+        return parts[0]
     if parts[:2] == ("include", "topple"):
         return {"topple": "all", "profile": "base"}.get(path.stem, path.stem)
     if parts[0] == "src":
@@ -108,7 +110,7 @@ def problem_with(chapter, file, quoted, bracketed, tree):
 def check(tree):
     """All forbidden includes of a tree, a line each, and how many includes were looked at."""
     problems, seen = [], 0
-    for folder in ("include", "src", "apps"):
+    for folder in ("include", "src", "apps", "python"):
         for file in sorted((tree / folder).rglob("*")):
             if file.suffix not in (".h", ".cpp"):
                 continue

@@ -51,7 +51,7 @@ finish() {
 }
 
 check_format() {
-  find include src apps tests studio/engine -name '*.h' -print0 -o -name '*.cpp' -print0 | xargs -0 clang-format-22 --dry-run --Werror
+  find include src apps python tests studio/engine -name '*.h' -print0 -o -name '*.cpp' -print0 | xargs -0 clang-format-22 --dry-run --Werror
 }
 
 # build PRESET [OPTION...]: configures and builds everything.

@@ -1,5 +1,8 @@
 """The Python module from outside: the same bits, words and numbers as the program's, and nothing of it ends the interpreter."""
+import contextlib
+import io
 import os
+import re
 import signal
 import tempfile
 import threading
@@ -157,6 +160,26 @@ class Files(unittest.TestCase):
             self.recording.plot(self.folder / "row.svg", "sped")
         with self.assertRaisesRegex(topple.Error, "cannot be"):
             self.recording.export(self.folder / "none" / "row.csv")
+
+
+class Documents(unittest.TestCase):
+    def test_the_lines_of_the_documents_run(self):
+        home = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "scenes").symlink_to(SOURCE / "scenes")
+            os.chdir(folder)
+            try:
+                for document in ("README.md", "docs/python.md"):
+                    lines = re.search(r"```python\n(.*?)```", (SOURCE / document).read_text(), re.S)[1]
+                    names = {}
+                    with contextlib.redirect_stdout(io.StringIO()) as said:
+                        exec(lines, names)
+                    self.assertIn("0.9", said.getvalue())
+                self.assertTrue(Path("row.topple").is_file())
+                self.assertGreater(names["hardest"], 0)
+                self.assertEqual(names["positions"].shape, (60, 3))
+            finally:
+                os.chdir(home)
 
 
 if __name__ == "__main__":
