@@ -25,7 +25,7 @@ std::string lower(std::string text) {
 /// "#rrggbb" with its leading '#', or the name of a usual colour.
 std::optional<Color> color_named(const std::string& text) {
   for (const NamedColor& usual : usual_colors()) {
-    if (lower(usual.name) == lower(text)) return usual.color;
+    if (usual.name == lower(text)) return usual.color;
   }
   unsigned code = 0;
   const auto [stop, problem] = std::from_chars(text.data() + 1, text.data() + text.size(), code, 16);
@@ -39,7 +39,7 @@ Result<StockColor> stock_color(const std::string& text) {
   const std::optional<Color> color = equals == 0 || text.empty() ? std::nullopt : color_named(text.substr(0, equals));
   if (!color) {
     std::string names;
-    for (const NamedColor& usual : usual_colors()) names += (names.empty() ? "" : ", ") + lower(usual.name);
+    for (const NamedColor& usual : usual_colors()) names += (names.empty() ? "" : ", ") + std::string(usual.name);
     return failure("--colors: '" + text + "' is no colour; it is written #rrggbb, or is one of " + names + ".");
   }
   if (equals == std::string::npos) return StockColor{*color};
@@ -49,14 +49,6 @@ Result<StockColor> stock_color(const std::string& text) {
   if (problem != std::errc() || stop != number.data() + number.size() || one.stock < 0 || one.stock > kMostBricks)
     return failure("--colors: '" + text + "': the stock must be a whole number from 0 to 10,000,000.");
   return one;
-}
-
-std::string name_of(const Color& color) {
-  std::string code = formatted("#%02x%02x%02x", color.red, color.green, color.blue);
-  for (const NamedColor& usual : usual_colors()) {
-    if (usual.color == color) return code + " " + lower(usual.name);
-  }
-  return code;
 }
 
 void print_picture(const Picture& picture, double width, double height) {

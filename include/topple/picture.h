@@ -33,6 +33,8 @@ struct NamedColor {
   Color color;
 };
 std::span<const NamedColor> usual_colors();
+/// "#f0821e orange"; of a colour without a name "#c0392b".
+std::string name_of(const Color& color);
 
 /// How many bricks: `rows` side by side, `count` in each.
 struct PictureSize {

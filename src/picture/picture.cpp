@@ -53,19 +53,26 @@ std::string key_of(char letter) {
 }  // namespace
 
 std::span<const NamedColor> usual_colors() {
-  static constexpr std::array<NamedColor, 12> kUsual{{{"Red", 'r', {0xd9, 0x2b, 0x2b}},
-                                                      {"Orange", 'o', {0xf0, 0x82, 0x1e}},
-                                                      {"Yellow", 'y', {0xf2, 0xb9, 0x28}},
-                                                      {"Green", 'g', {0x3f, 0xaa, 0x46}},
-                                                      {"Teal", 't', {0x17, 0xa3, 0x98}},
-                                                      {"Blue", 'b', {0x14, 0x78, 0xc8}},
-                                                      {"Royal blue", 'B', {0x2b, 0x5b, 0xd9}},
-                                                      {"Violet", 'v', {0x78, 0x32, 0xbe}},
-                                                      {"Crimson", 'c', {0xc2, 0x18, 0x5b}},
-                                                      {"Ivory", '.', {0xf4, 0xf1, 0xe8}},
-                                                      {"Slate", 's', {0x5d, 0x6d, 0x7e}},
-                                                      {"Black", '#', {0x23, 0x26, 0x2b}}}};
+  static constexpr std::array<NamedColor, 12> kUsual{{{"red", 'r', {0xd9, 0x2b, 0x2b}},
+                                                      {"orange", 'o', {0xf0, 0x82, 0x1e}},
+                                                      {"yellow", 'y', {0xf2, 0xb9, 0x28}},
+                                                      {"green", 'g', {0x3f, 0xaa, 0x46}},
+                                                      {"teal", 't', {0x17, 0xa3, 0x98}},
+                                                      {"blue", 'b', {0x14, 0x78, 0xc8}},
+                                                      {"royal blue", 'B', {0x2b, 0x5b, 0xd9}},
+                                                      {"violet", 'v', {0x78, 0x32, 0xbe}},
+                                                      {"crimson", 'c', {0xc2, 0x18, 0x5b}},
+                                                      {"ivory", '.', {0xf4, 0xf1, 0xe8}},
+                                                      {"slate", 's', {0x5d, 0x6d, 0x7e}},
+                                                      {"black", '#', {0x23, 0x26, 0x2b}}}};
   return kUsual;
+}
+
+std::string name_of(const Color& color) {
+  for (const NamedColor& usual : usual_colors()) {
+    if (usual.color == color) return color_text(color) + " " + usual.name;
+  }
+  return color_text(color);
 }
 
 PictureSize fit_picture(const Image& image, double pitch, double row_pitch, PictureSize wanted, std::int64_t bricks) {

@@ -9,6 +9,7 @@
 #include "export/plan/drawing.h"
 #include "export/plan/labels.h"
 #include "layout/text.h"
+#include "topple/picture.h"
 
 namespace topple::plan {
 namespace {
@@ -104,7 +105,7 @@ Table colors_table(const Layout& layout) {
       canvas.rect({at.x + 0.2, at.y - 1.3, 5.6, 2.6});
       canvas.fill_and_stroke(color, kOutline, 0.13);
     };
-    table.rows.push_back({.words = color_text(color), .number = count_text(-count), .bricks = -count, .sign = swatch, .indent = kSign});
+    table.rows.push_back({.words = name_of(color), .number = count_text(-count), .bricks = -count, .sign = swatch, .indent = kSign});
   }
   // Of a run of shades the few most frequent.
   constexpr std::size_t kMany = 25, kFew = 12;
