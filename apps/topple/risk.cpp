@@ -1,9 +1,9 @@
 /// `topple risk`: how likely it is that a run put down by hand stops, and at which bricks.
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "interrupt.h"
+#include "json_value.h"
 #include "progress.h"
 #include "source.h"
 #include "text.h"
@@ -34,11 +34,6 @@ std::string with_interval(const Share& share) {
 Json share_json(const Share& share) {
   return {{"count", share.count}, {"of", share.of}, {"share", share.value()}, {"low", share.low()}, {"high", share.high()}};
 }
-
-/// A number for JSON, which knows none that are not finite.
-Json number_json(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
-
-Json brick_json(BrickId brick) { return brick == kNoBrick ? Json(nullptr) : Json(brick); }
 
 /// A run as a line of the file of --kept, under the key of its study.
 std::string line_of(const std::string& key, const PlacedRun& run) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "json_value.h"
 #include "text.h"
 #include "topple/measure.h"
 
@@ -20,11 +21,6 @@ constexpr std::size_t kHitsShown = 10;  // Enough for a small scene; a long run'
 
 double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
 
-/// JSON has no NaN and no infinity: what is not a number is null.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json brick_or_null(BrickId brick) { return brick == kNoBrick ? Json(nullptr) : Json(brick); }
-
 /// The first hits: when, who by whom, and with what.
 Json first_hits(const Recording& recording) {
   Json hits = Json::array();
@@ -33,9 +29,9 @@ Json first_hits(const Recording& recording) {
     if (event.kind == EventKind::struck) {
       hits.push_back(Json{{"time_s", event.time},
                           {"brick", event.brick},
-                          {"by", brick_or_null(event.by)},
-                          {"force_n", number_or_null(event.force)},
-                          {"impulse_n_s", number_or_null(event.impulse)}});
+                          {"by", brick_json(event.by)},
+                          {"force_n", number_json(event.force)},
+                          {"impulse_n_s", number_json(event.impulse)}});
     }
   }
   return hits;
@@ -66,7 +62,7 @@ Json summary_json(const Recording& recording) {
   json["bricks"] = run.bricks;
   json["fallen"] = run.fallen;
   json["standing"] = run.standing;
-  json["front_speed_m_s"] = number_or_null(run.front_speed);
+  json["front_speed_m_s"] = number_json(run.front_speed);
   json["duration_s"] = run.duration;
   json["steps"] = end.step;
   json["wall_s"] = cost.wall;
@@ -74,7 +70,7 @@ Json summary_json(const Recording& recording) {
   json["peak_memory_bytes"] = cost.peak_memory;
   json["hash"] = hash_digits(end.hash);
   json["end"] = name_of(end.reason);
-  json["end_brick"] = brick_or_null(end.brick);
+  json["end_brick"] = brick_json(end.brick);
   json["end_words"] = end.words;
   json["hits"] = first_hits(recording);
   return json;

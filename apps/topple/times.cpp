@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "json_value.h"
 #include "output.h"
 #include "source.h"
 #include "text.h"
@@ -16,10 +17,6 @@ namespace topple::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number_json(double number) { return std::isfinite(number) ? Json(number) : Json(nullptr); }
-
-Json brick_json(BrickId brick) { return brick == kNoBrick ? Json(nullptr) : Json(brick); }
 
 /// A number with so many digits behind the point, or a dash where there is none.
 std::string cell(double number, int digits) { return std::isfinite(number) ? formatted("%.*f", digits, number) : "-"; }

@@ -2,12 +2,12 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "interrupt.h"
+#include "json_value.h"
 #include "text.h"
 #include "topple/validation.h"
 #include "verb.h"
@@ -61,8 +61,6 @@ class Counter {
   bool drawn_ = false;
 };
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json json_of(const SourceReport& report) {
   Json json{
       {"name", report.name}, {"title", report.title}, {"kind", report.kind}, {"comparisons", Json::array()}, {"claims", Json::array()}};
@@ -71,8 +69,8 @@ Json json_of(const SourceReport& report) {
                                    {"model", one.model},
                                    {"reading", one.reading},
                                    {"verdict", words_of(one.verdict)},
-                                   {"worst_at_defaults", number(one.worst_default)},
-                                   {"worst_at_best", number(one.worst_best)},
+                                   {"worst_at_defaults", number_json(one.worst_default)},
+                                   {"worst_at_best", number_json(one.worst_best)},
                                    {"best", one.best},
                                    {"point_fits", one.point_fits},
                                    {"words", one.words}});
